@@ -1,0 +1,30 @@
+//! The contract on disk: image frames, camera and IMU files, the manifest, and the ground truth.
+//!
+//! Layout and column names follow EuRoC/ASL, so that other tools read a data set as it is. Every file is written to a
+//! temporary name and renamed, so an interrupted job leaves nothing half-written. The ground truth has a module of its
+//! own, [`truth`], which estimators may not name.
+
+mod atomic;
+mod designated;
+mod error;
+mod imu;
+mod initial;
+mod manifest;
+mod raster;
+mod sensor;
+mod sequence;
+mod table;
+pub mod truth;
+mod tum;
+
+pub use atomic::{write_atomically, write_text};
+pub use designated::{DesignatedPoint, read_designated, write_designated};
+pub use error::DatasetError;
+pub use imu::{ImuNoise, ImuSample, read_imu, write_imu, write_imu_sensor};
+pub use initial::{InitialState, read_initial_state, write_initial_state};
+pub use manifest::{Manifest, read_manifest, write_manifest};
+pub use raster::{read_depth_tiff, read_mask_png, write_depth_tiff, write_grey_png};
+pub use sensor::{CameraSensor, read_camera_sensor, write_camera_sensor};
+pub use sequence::{CameraSource, Frame, ImageSequence};
+pub use table::{TimedRow, TimedTable, read_timed_table, write_timed_table};
+pub use tum::{StampedPose, read_tum, write_tum};

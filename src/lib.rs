@@ -1,0 +1,47 @@
+//! **opnav**: optical navigation in deep space.
+//!
+//! Renders planetary descents and tumbling small bodies with pixel-exact truth, extracts and matches Harris features,
+//! recovers relative rotation, and navigates by them. Data flows one way, from a scenario to a report:
+//!
+//! ```text
+//! scenario -> scene -> render -> dataset -> vision -> navigation -> evaluation -> report
+//!                                   ^                                   ^
+//!                      any image folder enters here        truth meets estimate only here
+//! ```
+//!
+//! # Conventions
+//!
+//! **Frames**, a closed list: `inertial`; `site` (fixed to the ground, z up, origin at the landing point); `lander` (IMU
+//! axes); `asteroid` (fixed to the small body); `node` (one of several linked spacecraft); `camera` (OpenCV: x right,
+//! y down, z forward); `pixel`; `clip`.
+//!
+//! **Rotations and poses** are named so that neighbours cancel: `camera_from_site = camera_from_lander *
+//! lander_from_site`. A rotation is a nalgebra [`UnitQuaternion<f64>`](nalgebra::UnitQuaternion) (Hamilton, active); a
+//! pose is an [`Isometry3<f64>`](nalgebra::Isometry3). Files name their columns `qw,qx,qy,qz`.
+//!
+//! **Error state**: `x.plus(d)` and `truth.minus(estimate)`, see [`geometry::Manifold`].
+//!
+//! **Pixel centres**: the centre of the top-left pixel is (0, 0), as in OpenCV; u to the right, v down.
+//!
+//! **Depth** is z-depth along the optical axis in metres, never the range.
+//!
+//! **Units** are SI inside and stand in every name (`_m`, `_rad_s`, `_px`, …); degrees only at the command line, in
+//! scenario files (`_deg`) and in reports. Stored time is `t_ns: i64`, a filter's step is `dt_s: f64`.
+//!
+//! # Features
+//!
+//! `render` (wgpu) and `vision` (OpenCV) are on by default and only leave rooms out; the filters build with neither.
+#![warn(missing_docs)]
+
+pub mod dataset;
+pub mod evaluation;
+pub mod geometry;
+pub mod navigation;
+#[cfg(all(feature = "render", feature = "vision"))]
+pub mod pipeline;
+#[cfg(feature = "render")]
+pub mod render;
+pub mod report;
+pub mod scene;
+pub mod stats;
+pub mod vision;
