@@ -1,5 +1,6 @@
 //! One test binary with a module a room, so that it links once.
 
+mod architecture;
 mod dataset;
 mod evaluation;
 mod filter;

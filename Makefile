@@ -1,0 +1,43 @@
+# Two commands do all the set-up: `make demo` and `make test`. Both install what the system lacks (as root or through
+# sudo), build, and run. A second run installs nothing.
+
+BUILD_PACKAGES := libopencv-calib3d-dev libopencv-video-dev clang libclang1 mesa-vulkan-drivers libvulkan1 pkg-config g++
+# The tests open the report in a headless browser. Ubuntu packages none (only a snap): there, that one test is skipped.
+TEST_PACKAGES := $(shell . /etc/os-release 2>/dev/null; [ "$$ID" = debian ] && echo chromium)
+
+# OpenCV's folders on Debian and Ubuntu, whatever the architecture; a variable that is already set wins.
+MULTIARCH := $(shell uname -m)-linux-gnu
+export OPENCV_INCLUDE_PATHS ?= /usr/include/opencv4,/usr/include/$(MULTIARCH)/opencv4
+export OPENCV_LINK_PATHS ?= /usr/lib/$(MULTIARCH)
+
+.PHONY: demo test accuracy bench lint packages
+
+# Install, build, render and navigate both missions, write out/demo/report.html.
+demo: packages
+	cargo run -- demo --out out/demo
+
+# Install, build, run every test.
+test: packages
+	@.ci/install $(TEST_PACKAGES)
+	cargo test
+
+# Long accuracy campaigns against their bounds, as a table.
+accuracy: packages
+	cargo test --test main accuracy -- --ignored --nocapture --test-threads=1
+
+# Criterion benchmarks of the renderer and the front end.
+bench: packages
+	cargo bench
+
+# Formatting, lints and documentation, with and without the rooms that need a GPU driver or OpenCV.
+lint: packages
+	cargo fmt --all --check
+	cargo clippy --all-targets -- -D warnings
+	cargo clippy --all-targets --no-default-features -- -D warnings
+	cargo clippy --all-targets --no-default-features --features render -- -D warnings
+	cargo clippy --all-targets --no-default-features --features vision -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps
+
+packages:
+	@.ci/install $(BUILD_PACKAGES)
+	@command -v cargo >/dev/null || { echo "Rust is missing: get it from https://rustup.rs and run make again." >&2; exit 1; }
