@@ -1,1 +1,15 @@
-//! The `cli` room.
+//! One file per subcommand: parse, call a pipeline, print.
+
+mod arguments;
+mod demo;
+mod doctor;
+mod evaluate;
+mod land;
+mod progress;
+mod render;
+mod report;
+mod run;
+mod track;
+mod tumble;
+
+pub use run::run;

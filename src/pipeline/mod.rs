@@ -1,1 +1,32 @@
-//! The `pipeline` room.
+//! One file per story: corridors that join the rooms and hold no mathematics.
+
+mod demonstrate;
+mod doctor;
+mod error;
+mod evaluate;
+mod land;
+mod page;
+mod progress;
+mod summary;
+mod synthesize;
+mod track;
+mod tumble;
+
+pub use demonstrate::{DemoOutcome, demonstrate};
+pub use doctor::{Diagnosis, diagnose};
+pub use error::PipelineError;
+pub use evaluate::evaluate_result;
+pub use land::{LandRequest, land};
+pub use page::write_page;
+pub use progress::{Progress, Silent};
+pub use summary::Summary;
+pub use synthesize::{SynthesizeRequest, synthesize};
+pub use track::{TrackRequest, track};
+pub use tumble::{TumbleRequest, tumble};
+
+// Settings that a caller of the stories chooses.
+pub use crate::dataset::CameraSource;
+pub use crate::navigation::landing::{FilterKind, LandingConfig};
+pub use crate::navigation::landmark::Selector;
+pub use crate::navigation::tumbling::{Estimator, TumblingConfig};
+pub use crate::vision::FrontEndConfig;

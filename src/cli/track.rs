@@ -1,0 +1,47 @@
+//! `opnav track`: any folder of pictures to tracks and relative rotations.
+
+use super::arguments::{CameraArguments, frame_range, positive};
+use super::progress::Terminal;
+use opnav::pipeline::{FrontEndConfig, PipelineError, TrackRequest, track};
+use std::ops::Range;
+use std::path::PathBuf;
+
+/// Track Harris features through a folder of pictures and recover the rotation of each pair.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// A data set, a EuRoC folder, or a folder of pictures.
+    folder: PathBuf,
+    /// Folder of the result.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    #[command(flatten)]
+    camera: CameraArguments,
+    /// Take every N-th picture.
+    #[arg(long, value_name = "N", default_value = "1", value_parser = positive)]
+    every: usize,
+    /// Pictures to take, counted from 0, without B.
+    #[arg(long, value_name = "A..B", value_parser = frame_range)]
+    frames: Option<Range<usize>>,
+}
+
+/// Tracks and prints the counts.
+pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineError> {
+    let request = TrackRequest {
+        folder: arguments.folder.clone(),
+        out: arguments.out.clone(),
+        camera: arguments.camera.source(),
+        every: arguments.every,
+        frames: arguments.frames.clone(),
+        config: FrontEndConfig::default(),
+    };
+    let summary = track(&request, terminal)?;
+    let count = |name: &str| summary.counts.get(name).copied().unwrap_or(0);
+    terminal.say(&format!(
+        "{} frames, {} of {} pairs accepted, result in {}",
+        count("frames"),
+        count("pairs_ok"),
+        count("pairs"),
+        arguments.out.display()
+    ));
+    Ok(())
+}

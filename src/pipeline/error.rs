@@ -1,0 +1,59 @@
+//! Whatever can stop a story, in one type.
+
+use crate::dataset::DatasetError;
+use crate::evaluation::EvaluationError;
+use crate::navigation::landing::LandingError;
+use crate::navigation::tumbling::TumblingError;
+use crate::render::RenderError;
+use crate::scene::SceneError;
+use crate::vision::VisionError;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why a story could not be told to its end. Every message names the file or key and the cure.
+#[derive(Debug, Error)]
+pub enum PipelineError {
+    /// Files.
+    #[error(transparent)]
+    Dataset(#[from] DatasetError),
+    /// The scenario.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The renderer.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// The image front end.
+    #[error(transparent)]
+    Vision(#[from] VisionError),
+    /// The landing estimator.
+    #[error(transparent)]
+    Landing(#[from] LandingError),
+    /// The tumbling estimator.
+    #[error(transparent)]
+    Tumbling(#[from] TumblingError),
+    /// The comparison with the truth.
+    #[error(transparent)]
+    Evaluation(#[from] EvaluationError),
+    /// The output folder holds something already.
+    #[error("{} is not empty: continue it with --resume, or name another folder", path.display())]
+    NotEmpty {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A folder holds a different job.
+    #[error("{} holds another scenario: name another folder, or resume with the same scenario, seed and settings", path.display())]
+    OtherScenario {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A range of frames that does not fit.
+    #[error("frames {from}..{to} do not lie within the {available} frames there are")]
+    FrameRange {
+        /// First frame.
+        from: usize,
+        /// One past the last frame.
+        to: usize,
+        /// Number of frames.
+        available: usize,
+    },
+}

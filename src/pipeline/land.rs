@@ -1,0 +1,109 @@
+//! A descent: pictures and IMU in, the lander's state out.
+
+use super::track::{run_front_end, write_front_end, write_overlays};
+use super::{PipelineError, Progress, Summary};
+use crate::dataset::{
+    CameraSource, ImageSequence, StampedPose, read_designated, read_imu, read_initial_state, write_tum,
+};
+use crate::navigation::landing::{
+    LandingConfig, LandingEpoch, LandingInput, LandingResult, gyro_rotation, navigate, write_covariance_csv,
+    write_estimate_csv,
+};
+use crate::vision::{FrontEnd, FrontEndConfig, TrackInputs};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// What to navigate by, and where the result goes.
+#[derive(Debug, Clone)]
+pub struct LandRequest {
+    /// A data set with `imu0/`, `designated.csv` and `initial_state.csv`.
+    pub folder: PathBuf,
+    /// The result's folder.
+    pub out: PathBuf,
+    /// Filter settings.
+    pub config: LandingConfig,
+    /// Front-end settings.
+    pub front_end: FrontEndConfig,
+}
+
+/// Tracks the pictures, runs the landing filter and writes the result.
+///
+/// # Errors
+/// Missing or malformed inputs, or a file that cannot be written.
+pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, PipelineError> {
+    let sequence = ImageSequence::open(&request.folder, &CameraSource::Folder)?;
+    let (imu_noise, imu) = read_imu(&sequence.root)?;
+    let designated = read_designated(&sequence.root)?;
+    let initial = read_initial_state(&sequence.root)?;
+    let options = serde_json::json!({
+        "folder": request.folder.display().to_string(),
+        "filter": request.config,
+        "front_end": request.front_end,
+    });
+    let mut summary = Summary::new("landing", options);
+    let lander_from_camera = sequence.sensor.spacecraft_from_camera;
+    let prior = |from_ns: i64, to_ns: i64| gyro_rotation(&imu, &lander_from_camera.rotation, from_ns, to_ns);
+    let inputs = TrackInputs {
+        frames: 0..sequence.frames.len(),
+        every: 1,
+        rotation_prior: Some(&prior),
+        designated: Some(designated),
+    };
+    let front_end = run_front_end(&sequence, &request.front_end, &inputs, (progress, &mut summary))?;
+    let input = LandingInput {
+        imu: imu.clone(),
+        imu_noise,
+        camera: sequence.sensor.camera,
+        lander_from_camera,
+        observations: front_end.observations.clone(),
+        frame_times_ns: front_end.frames.iter().map(|f| f.t_ns).collect(),
+        initial,
+    };
+    let start = Instant::now();
+    progress.begin("navigating", input.frame_times_ns.len());
+    let result = navigate(&input, &request.config, &|done| progress.advance_to(done))?;
+    progress.end();
+    summary.timing_ms.insert("filter".into(), start.elapsed().as_secs_f64() * 1e3);
+    describe(&result, &mut summary);
+    write_result(&request.out, &sequence, (&front_end, &result))?;
+    summary.write(&request.out)?;
+    Ok(summary)
+}
+
+fn write_result(
+    out: &Path,
+    sequence: &ImageSequence,
+    (front_end, result): (&FrontEnd, &LandingResult),
+) -> Result<(), PipelineError> {
+    write_front_end(out, front_end)?;
+    write_overlays(out, sequence, front_end)?;
+    write_estimate_csv(&out.join("estimate.csv"), result)?;
+    write_covariance_csv(&out.join("covariance.csv"), result)?;
+    let pose = |e: &LandingEpoch| StampedPose { t_ns: e.t_ns, reference_from_moving: e.site_from_lander };
+    Ok(write_tum(&out.join("trajectory.tum"), &result.epochs.iter().map(pose).collect::<Vec<_>>())?)
+}
+
+/// Final state with 1σ, counts and notes for the summary.
+fn describe(result: &LandingResult, summary: &mut Summary) {
+    let with_image = result.epochs.iter().filter(|e| e.known_seen || e.unknown_track.is_some()).count();
+    summary.counts.insert("epochs".into(), result.epochs.len());
+    summary.counts.insert("epochs_with_bearings".into(), with_image);
+    summary.counts.insert("bearings_gated".into(), result.epochs.iter().map(|e| e.gated).sum());
+    for (from_ns, to_ns) in &result.coasted {
+        let (from_s, to_s) = (*from_ns as f64 * 1e-9, *to_ns as f64 * 1e-9);
+        summary.notes.push(format!("coasted on the IMU alone from {from_s:.2} s to {to_s:.2} s"));
+    }
+    let Some(last) = result.epochs.last() else { return };
+    let sigma = last.covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
+    let (p, q, v) =
+        (last.site_from_lander.translation, last.site_from_lander.rotation, last.lander_velocity_in_site_m_s);
+    summary.last = serde_json::json!({
+        "t_ns": last.t_ns,
+        "position_in_site_m": [p.x, p.y, p.z],
+        "sigma_position_m": [sigma[0], sigma[1], sigma[2]],
+        "velocity_in_site_m_s": [v.x, v.y, v.z],
+        "sigma_velocity_m_s": [sigma[3], sigma[4], sigma[5]],
+        "site_from_lander_wxyz": [q.w, q.i, q.j, q.k],
+        "sigma_attitude_in_site_rad": [sigma[6], sigma[7], sigma[8]],
+    });
+}

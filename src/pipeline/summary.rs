@@ -1,0 +1,51 @@
+//! `summary.json`: what a result is and how it came about.
+
+use super::PipelineError;
+use crate::dataset::write_text;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The head of a result folder.
+#[derive(Debug, Clone, Serialize)]
+pub struct Summary {
+    /// `landing`, `tumbling` or `tracking`.
+    pub mission: &'static str,
+    /// Version of opnav.
+    pub opnav_version: &'static str,
+    /// Every option as used.
+    pub options: serde_json::Value,
+    /// Frames, matches, and whatever else was counted.
+    pub counts: BTreeMap<String, usize>,
+    /// Final estimates with their 1σ, units in the names.
+    #[serde(rename = "final")]
+    pub last: serde_json::Value,
+    /// Wall time of each stage in ms.
+    pub timing_ms: BTreeMap<String, f64>,
+    /// What the user should know: coasted intervals, undetermined quantities.
+    pub notes: Vec<String>,
+}
+
+impl Summary {
+    /// A summary with nothing in it yet.
+    pub fn new(mission: &'static str, options: serde_json::Value) -> Self {
+        Summary {
+            mission,
+            opnav_version: env!("CARGO_PKG_VERSION"),
+            options,
+            counts: BTreeMap::new(),
+            last: serde_json::Value::Null,
+            timing_ms: BTreeMap::new(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// Writes `summary.json` into a result folder.
+    ///
+    /// # Errors
+    /// Names the file that could not be written.
+    pub fn write(&self, folder: &Path) -> Result<(), PipelineError> {
+        let text = serde_json::to_string_pretty(self).expect("a summary is plain data");
+        Ok(write_text(&folder.join("summary.json"), &text)?)
+    }
+}

@@ -1,0 +1,92 @@
+//! A tumbling small body: pictures in; attitude, rate and inertia ratios out.
+
+use super::track::{checked_frames, run_front_end, write_front_end, write_overlays};
+use super::{PipelineError, Progress, Summary};
+use crate::dataset::{CameraSource, ImageSequence, StampedPose, write_tum};
+use crate::navigation::tumbling::{
+    TumblingConfig, TumblingEpoch, TumblingResult, estimate, write_covariance_csv, write_estimate_csv,
+};
+use crate::vision::{FrontEnd, FrontEndConfig, TrackInputs};
+use nalgebra::{Isometry3, Translation3};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// What to estimate from, and where the result goes.
+#[derive(Debug, Clone)]
+pub struct TumbleRequest {
+    /// A data set or a folder of pictures of one tumbling body.
+    pub folder: PathBuf,
+    /// The result's folder.
+    pub out: PathBuf,
+    /// Where the camera's parameters come from.
+    pub camera: CameraSource,
+    /// Pictures to take; all if `None`.
+    pub frames: Option<Range<usize>>,
+    /// Estimator settings.
+    pub config: TumblingConfig,
+    /// Front-end settings.
+    pub front_end: FrontEndConfig,
+}
+
+/// Tracks the pictures, estimates the tumbling motion and writes the result.
+///
+/// # Errors
+/// Missing or malformed inputs, too few usable pairs, or a file that cannot be written.
+pub fn tumble(request: &TumbleRequest, progress: &dyn Progress) -> Result<Summary, PipelineError> {
+    let sequence = ImageSequence::open(&request.folder, &request.camera)?;
+    let frames = checked_frames(request.frames.clone(), sequence.frames.len())?;
+    let options = serde_json::json!({
+        "folder": request.folder.display().to_string(),
+        "estimator": request.config,
+        "front_end": request.front_end,
+    });
+    let mut summary = Summary::new("tumbling", options);
+    let inputs = TrackInputs { frames, every: 1, rotation_prior: None, designated: None };
+    let front_end = run_front_end(&sequence, &request.front_end, &inputs, (progress, &mut summary))?;
+    let times_ns: Vec<i64> = front_end.frames.iter().map(|f| f.t_ns).collect();
+    let start = Instant::now();
+    progress.begin("estimating", 1);
+    let result = estimate(&front_end.rotations, &times_ns, &request.config)?;
+    progress.end();
+    summary.timing_ms.insert("estimator".into(), start.elapsed().as_secs_f64() * 1e3);
+    describe(&result, &mut summary);
+    write_result(&request.out, &sequence, (&front_end, &result))?;
+    summary.write(&request.out)?;
+    Ok(summary)
+}
+
+fn write_result(
+    out: &Path,
+    sequence: &ImageSequence,
+    (front_end, result): (&FrontEnd, &TumblingResult),
+) -> Result<(), PipelineError> {
+    write_front_end(out, front_end)?;
+    write_overlays(out, sequence, front_end)?;
+    write_estimate_csv(&out.join("estimate.csv"), result)?;
+    write_covariance_csv(&out.join("covariance.csv"), result)?;
+    let pose = |e: &TumblingEpoch| StampedPose {
+        t_ns: e.t_ns,
+        reference_from_moving: Isometry3::from_parts(Translation3::identity(), e.asteroid_from_inertial),
+    };
+    Ok(write_tum(&out.join("trajectory.tum"), &result.epochs.iter().map(pose).collect::<Vec<_>>())?)
+}
+
+/// Final state with 1σ, counts and notes for the summary.
+fn describe(result: &TumblingResult, summary: &mut Summary) {
+    summary.counts.insert("pairs_used".into(), result.pairs_used);
+    summary.counts.insert("pairs_rejected".into(), result.pairs_rejected);
+    summary.notes.extend(result.undetermined.iter().map(|d| format!("inertia not determined: {d}")));
+    let Some(last) = result.epochs.last() else { return };
+    let sigma = last.covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
+    let (q, w) = (last.asteroid_from_inertial, last.rate_in_asteroid_rad_s);
+    summary.last = serde_json::json!({
+        "t_ns": last.t_ns,
+        "asteroid_from_inertial_wxyz": [q.w, q.i, q.j, q.k],
+        "sigma_attitude_in_asteroid_rad": [sigma[0], sigma[1], sigma[2]],
+        "rate_in_asteroid_rad_s": [w.x, w.y, w.z],
+        "sigma_rate_rad_s": [sigma[3], sigma[4], sigma[5]],
+        "inertia_ratios_xx_yy_xy_xz_yz": result.inertia_ratios,
+        "sigma_inertia_ratios": result.inertia_sigma,
+    });
+}
