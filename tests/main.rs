@@ -1,7 +1,11 @@
 //! One test binary with a module a room, so that it links once.
 
 mod architecture;
+#[cfg(all(feature = "render", feature = "vision"))]
+mod cli;
 mod dataset;
+#[cfg(all(feature = "render", feature = "vision"))]
+mod end_to_end;
 mod evaluation;
 mod filter;
 mod geometry;

@@ -42,8 +42,9 @@ impl Progress for Terminal {
     fn begin(&self, name: &str, total: usize) {
         self.with_stage(|stage| {
             let bar = std::io::stderr().is_terminal().then(|| {
-                let style = ProgressStyle::with_template("{prefix:>12} [{bar:40}] {pos}/{len} {elapsed_precise} left {eta}")
-                    .unwrap_or_else(|_| ProgressStyle::default_bar());
+                let style =
+                    ProgressStyle::with_template("{prefix:>12} [{bar:40}] {pos}/{len} {elapsed_precise} left {eta}")
+                        .unwrap_or_else(|_| ProgressStyle::default_bar());
                 ProgressBar::new(total as u64).with_style(style).with_prefix(name.to_string())
             });
             *stage = Some(Stage { name: name.to_string(), total, printed_tenths: 0, bar });
