@@ -46,7 +46,9 @@ impl ConsistencyBounds {
 
     /// What a normalised mean says of the estimator, in one sentence.
     pub fn diagnosis(&self, normalized_mean: f64) -> &'static str {
-        if normalized_mean > self.upper {
+        if normalized_mean.is_nan() {
+            "undetermined: there is no normalised error to judge"
+        } else if normalized_mean > self.upper {
             "overconfident: errors are larger than the covariance says"
         } else if normalized_mean < self.lower {
             "pessimistic: errors are smaller than the covariance says"
