@@ -1,7 +1,7 @@
 //! What a lander believes of itself at the first frame, before any picture: `initial_state.csv`.
 
 use super::{DatasetError, TimedRow, read_timed_table, write_timed_table};
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Translation3, Vector3};
 use std::path::Path;
 
 /// A first estimate of the lander's state with independent 1σ, the same on each axis.
@@ -32,15 +32,15 @@ pub fn read_initial_state(root: &Path) -> Result<InitialState, DatasetError> {
     let path = root.join("initial_state.csv");
     let table = read_timed_table(&path, 13)?;
     let TimedRow { t_ns, values: v } = &table.rows[0];
-    let q = Quaternion::new(v[3], v[4], v[5], v[6]);
-    if q.norm() < 1e-6 || v[10..].iter().any(|sigma| *sigma <= 0.0) {
-        let problem = "the quaternion must not be zero and every sigma must be positive".into();
+    let rotation = table.rotation(&path, 0, 3)?;
+    if v[10..].iter().any(|sigma| *sigma <= 0.0) {
+        let problem = "every sigma must be positive".into();
         return Err(DatasetError::Unusable { path, problem });
     }
     let translation = Translation3::new(v[0], v[1], v[2]);
     Ok(InitialState {
         t_ns: *t_ns,
-        site_from_lander: Isometry3::from_parts(translation, UnitQuaternion::from_quaternion(q)),
+        site_from_lander: Isometry3::from_parts(translation, rotation),
         lander_velocity_in_site_m_s: Vector3::from_column_slice(&v[7..10]),
         sigma_position_m: v[10],
         sigma_velocity_m_s: v[11],

@@ -60,6 +60,9 @@ pub fn read_camera_sensor(path: &Path) -> Result<CameraSensor, DatasetError> {
         distortion: distortion(&file).map_err(unusable)?,
     };
     camera.validate().map_err(|e| unusable(e.to_string()))?;
+    if file.rate_hz.is_some_and(|rate| !(rate > 0.0 && rate.is_finite())) {
+        return Err(unusable("rate_hz must be a positive number".into()));
+    }
     let spacecraft_from_camera = match &file.t_bs {
         Some(matrix) => isometry(matrix).map_err(unusable)?,
         None => Isometry3::identity(),
@@ -91,10 +94,13 @@ fn isometry(matrix: &MatrixFile) -> Result<Isometry3<f64>, String> {
     if matrix.data.len() != 16 {
         return Err(format!("T_BS has {} numbers, 16 expected", matrix.data.len()));
     }
+    if matrix.data.iter().any(|v| !v.is_finite()) {
+        return Err("T_BS holds a value that is not a finite number".into());
+    }
     let m = Matrix4::from_row_slice(&matrix.data);
     let rotation: Matrix3<f64> = m.fixed_view::<3, 3>(0, 0).into_owned();
     let off = (rotation * rotation.transpose() - Matrix3::identity()).abs().max();
-    if off.is_nan() || off > 1e-3 || rotation.determinant() < 0.0 {
+    if off > 1e-3 || rotation.determinant() < 0.0 {
         return Err("the upper-left 3x3 block of T_BS is not a rotation".into());
     }
     let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix(&rotation));

@@ -97,6 +97,10 @@ fn open_picture(path: &Path) -> Result<image::DynamicImage, DatasetError> {
 }
 
 fn sensor_from_fov(frame: &Frame, fov_rad: f64) -> Result<CameraSensor, DatasetError> {
+    if !(fov_rad > 0.0 && fov_rad < std::f64::consts::PI) {
+        let problem = format!("a field of view of {} degrees is not between 0 and 180", fov_rad.to_degrees());
+        return Err(DatasetError::Unusable { path: frame.path.clone(), problem });
+    }
     let picture = open_picture(&frame.path)?;
     let camera = Camera::from_fov(picture.width(), picture.height(), fov_rad);
     Ok(CameraSensor { camera, spacecraft_from_camera: Isometry3::identity(), rate_hz: None })
@@ -149,7 +153,7 @@ fn found_frames(pictures: &Path) -> Result<Vec<Frame>, DatasetError> {
             path.is_file() && EXTENSIONS.contains(&extension.as_str())
         })
         .collect();
-    paths.sort_by(|a, b| natord::compare(&a.to_string_lossy(), &b.to_string_lossy()));
+    paths.sort_by(|a, b| natord::compare(&a.to_string_lossy(), &b.to_string_lossy()).then_with(|| a.cmp(b)));
     let times: Vec<Option<i64>> =
         paths.iter().map(|p| p.file_stem().and_then(|s| s.to_str()).and_then(|s| s.parse().ok())).collect();
     let timed = times.iter().all(Option::is_some) && times.windows(2).all(|w| w[0] < w[1]);

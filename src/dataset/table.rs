@@ -1,6 +1,7 @@
 //! Time-stamped tables of numbers as CSV: `t_ns` first, then columns of floating-point numbers.
 
 use super::{DatasetError, write_atomically};
+use nalgebra::{Quaternion, UnitQuaternion};
 use std::path::Path;
 
 /// One row: a time stamp in ns and the other columns.
@@ -19,6 +20,21 @@ pub struct TimedTable {
     pub columns: Vec<String>,
     /// The rows.
     pub rows: Vec<TimedRow>,
+    /// Line of each row in the file, from 1.
+    lines: Vec<u64>,
+}
+
+impl TimedTable {
+    /// Rotation from the four columns `qw,qx,qy,qz` that start at `column` of a row.
+    pub(super) fn rotation(&self, path: &Path, row: usize, column: usize) -> Result<UnitQuaternion<f64>, DatasetError> {
+        let v = &self.rows[row].values[column..column + 4];
+        let q = Quaternion::new(v[0], v[1], v[2], v[3]);
+        if (q.norm() - 1.0).abs() > 1e-2 {
+            let problem = format!("the quaternion's length is {}, 1 expected", q.norm());
+            return Err(DatasetError::Malformed { path: path.into(), line: self.lines[row], problem });
+        }
+        Ok(UnitQuaternion::from_quaternion(q))
+    }
 }
 
 /// Reads a table of `columns` numbers beside the time; a header line may start with `#` and is optional.
@@ -28,7 +44,7 @@ pub struct TimedTable {
 /// unordered or doubled; a table without rows is an error too.
 pub fn read_timed_table(path: &Path, columns: usize) -> Result<TimedTable, DatasetError> {
     let text = read_text(path)?;
-    let mut table = TimedTable { columns: Vec::new(), rows: Vec::new() };
+    let mut table = TimedTable { columns: Vec::new(), rows: Vec::new(), lines: Vec::new() };
     for (index, line) in text.lines().enumerate() {
         let line_number = index as u64 + 1;
         let malformed = |problem: String| DatasetError::Malformed { path: path.into(), line: line_number, problem };
@@ -54,6 +70,7 @@ pub fn read_timed_table(path: &Path, columns: usize) -> Result<TimedTable, Datas
         }
         let values = fields[1..].iter().map(|f| parse_finite(f).map_err(&malformed)).collect::<Result<_, _>>()?;
         table.rows.push(TimedRow { t_ns, values });
+        table.lines.push(line_number);
     }
     if table.rows.is_empty() {
         return Err(DatasetError::Unusable { path: path.into(), problem: "it has no rows of data".into() });

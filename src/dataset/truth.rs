@@ -1,7 +1,7 @@
 //! The ground truth of a data set, `truth/`: everything that an estimator may not see.
 
 use super::{DatasetError, read_timed_table, write_text, write_timed_table};
-use nalgebra::{Isometry3, Matrix3, Quaternion, Translation3, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -93,19 +93,20 @@ fn lander_columns(s: &LanderState) -> [f64; 16] {
 /// # Errors
 /// Names the file and line at fault.
 pub fn read_lander_states(root: &Path) -> Result<Vec<LanderState>, DatasetError> {
-    let table = read_timed_table(&root.join("truth/state.csv"), 16)?;
-    let state = |row: &super::TimedRow| {
+    let path = root.join("truth/state.csv");
+    let table = read_timed_table(&path, 16)?;
+    let state = |(index, row): (usize, &super::TimedRow)| {
         let v = &row.values;
-        let rotation = UnitQuaternion::from_quaternion(Quaternion::new(v[3], v[4], v[5], v[6]));
-        LanderState {
+        let rotation = table.rotation(&path, index, 3)?;
+        Ok(LanderState {
             t_ns: row.t_ns,
             site_from_lander: Isometry3::from_parts(Translation3::new(v[0], v[1], v[2]), rotation),
             lander_velocity_in_site_m_s: Vector3::from_column_slice(&v[7..10]),
             gyro_bias_rad_s: Vector3::from_column_slice(&v[10..13]),
             accelerometer_bias_m_s2: Vector3::from_column_slice(&v[13..16]),
-        }
+        })
     };
-    Ok(table.rows.iter().map(state).collect())
+    table.rows.iter().enumerate().map(state).collect()
 }
 
 /// Writes `truth/asteroid.csv` and `truth/asteroid.json` under a data set's root.
@@ -131,19 +132,29 @@ pub fn write_asteroid(root: &Path, states: &[AsteroidState], inertia: &AsteroidI
 /// # Errors
 /// Names the file and line at fault.
 pub fn read_asteroid(root: &Path) -> Result<(Vec<AsteroidState>, AsteroidInertia), DatasetError> {
-    let table = read_timed_table(&root.join("truth/asteroid.csv"), 7)?;
-    let state = |row: &super::TimedRow| {
-        let v = &row.values;
-        AsteroidState {
+    let path = root.join("truth/asteroid.csv");
+    let table = read_timed_table(&path, 7)?;
+    let state = |(index, row): (usize, &super::TimedRow)| {
+        Ok(AsteroidState {
             t_ns: row.t_ns,
-            asteroid_from_inertial: UnitQuaternion::from_quaternion(Quaternion::new(v[0], v[1], v[2], v[3])),
-            rate_in_asteroid_rad_s: Vector3::from_column_slice(&v[4..7]),
-        }
+            asteroid_from_inertial: table.rotation(&path, index, 0)?,
+            rate_in_asteroid_rad_s: Vector3::from_column_slice(&row.values[4..7]),
+        })
     };
-    let path = root.join("truth/asteroid.json");
-    let text = super::table::read_text(&path)?;
-    let inertia = serde_json::from_str(&text).map_err(|e| DatasetError::Unusable { path, problem: e.to_string() })?;
-    Ok((table.rows.iter().map(state).collect(), inertia))
+    let states = table.rows.iter().enumerate().map(state).collect::<Result<_, _>>()?;
+    Ok((states, read_inertia(&root.join("truth/asteroid.json"))?))
+}
+
+fn read_inertia(path: &Path) -> Result<AsteroidInertia, DatasetError> {
+    let text = super::table::read_text(path)?;
+    let unusable = |problem: String| DatasetError::Unusable { path: path.into(), problem };
+    let inertia: AsteroidInertia = serde_json::from_str(&text).map_err(|e| unusable(e.to_string()))?;
+    let matrix = inertia.matrix();
+    let symmetric = (matrix - matrix.transpose()).abs().max() <= 1e-9 * matrix.abs().max();
+    if !symmetric || matrix.cholesky().is_none() {
+        return Err(unusable("the inertia is not a symmetric positive definite tensor".into()));
+    }
+    Ok(inertia)
 }
 
 /// Writes `truth/landmarks.csv` and `truth/observations.csv` under a data set's root.

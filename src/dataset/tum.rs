@@ -23,8 +23,9 @@ pub fn write_tum(path: &Path, poses: &[StampedPose]) -> Result<(), DatasetError>
         for pose in poses {
             let t = &pose.reference_from_moving.translation;
             let q = &pose.reference_from_moving.rotation;
-            let (s, ns) = (pose.t_ns.div_euclid(1_000_000_000), pose.t_ns.rem_euclid(1_000_000_000));
-            writeln!(w, "{s}.{ns:09} {} {} {} {} {} {} {}", t.x, t.y, t.z, q.i, q.j, q.k, q.w)?;
+            let sign = if pose.t_ns < 0 { "-" } else { "" };
+            let (s, ns) = (pose.t_ns.unsigned_abs() / 1_000_000_000, pose.t_ns.unsigned_abs() % 1_000_000_000);
+            writeln!(w, "{sign}{s}.{ns:09} {} {} {} {} {} {} {}", t.x, t.y, t.z, q.i, q.j, q.k, q.w)?;
         }
         Ok(())
     })
@@ -33,7 +34,8 @@ pub fn write_tum(path: &Path, poses: &[StampedPose]) -> Result<(), DatasetError>
 /// Reads poses; lines that start with `#` are comments.
 ///
 /// # Errors
-/// Names the file and line of what is not eight finite numbers, a zero quaternion, or times out of order.
+/// Names the file and line of what is not eight finite numbers, a zero quaternion, or times out of order; a file
+/// without poses is an error too.
 pub fn read_tum(path: &Path) -> Result<Vec<StampedPose>, DatasetError> {
     let text = read_text(path)?;
     let mut poses: Vec<StampedPose> = Vec::new();
@@ -60,6 +62,9 @@ pub fn read_tum(path: &Path) -> Result<Vec<StampedPose>, DatasetError> {
         let pose = Isometry3::from_parts(Translation3::new(v[0], v[1], v[2]), rotation);
         poses.push(StampedPose { t_ns, reference_from_moving: pose });
     }
+    if poses.is_empty() {
+        return Err(DatasetError::Unusable { path: path.into(), problem: "it has no poses".into() });
+    }
     Ok(poses)
 }
 
@@ -68,8 +73,8 @@ fn seconds_to_ns(text: &str) -> Option<i64> {
     let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
     let plain = fraction.bytes().all(|b| b.is_ascii_digit()) && whole.parse::<i64>().is_ok();
     if !plain {
-        let seconds = text.parse::<f64>().ok().filter(|t| t.is_finite())?;
-        return Some((seconds * 1e9).round() as i64);
+        let ns = text.parse::<f64>().ok()? * 1e9;
+        return (ns.abs() < i64::MAX as f64).then(|| ns.round() as i64);
     }
     let digits: String = fraction.chars().chain(std::iter::repeat('0')).take(9).collect();
     let ns: i64 = digits.parse().ok()?;

@@ -84,12 +84,13 @@ impl Camera {
         Ok(())
     }
 
-    /// Pixel of a point in camera axes (m); `None` behind the camera. The pixel may lie outside the picture.
+    /// Pixel of a point in camera axes (m); `None` behind the camera and where the lens model folds over (no pixel sees
+    /// the point). The pixel may lie outside the picture.
     pub fn project(&self, point_in_camera_m: &Vector3<f64>) -> Option<Vector2<f64>> {
         self.project_with_jacobian(point_in_camera_m).map(|(pixel, _)| pixel)
     }
 
-    /// Pixel of a point in camera axes, and its derivative (2×3, px/m) by the point; `None` behind the camera.
+    /// Pixel of a point in camera axes, and its derivative (2×3, px/m) by the point; `None` as for [`Camera::project`].
     pub fn project_with_jacobian(&self, point_in_camera_m: &Vector3<f64>) -> Option<(Vector2<f64>, Matrix2x3<f64>)> {
         let p = point_in_camera_m;
         if p.z.is_nan() || p.z <= 0.0 {
@@ -97,6 +98,11 @@ impl Camera {
         }
         let ideal = Vector2::new(p.x / p.z, p.y / p.z);
         let (distorted, by_ideal) = self.distortion.distort(&ideal);
+        // Both eigenvalues of the (symmetric) derivative are positive as long as the picture has not folded over: far
+        // outside the field of view a barrel polynomial would bring points back into the picture.
+        if by_ideal.determinant() <= 0.0 || by_ideal.trace() <= 0.0 {
+            return None;
+        }
         let by_point = Matrix2x3::new(1.0, 0.0, -ideal.x, 0.0, 1.0, -ideal.y) / p.z;
         let focal = nalgebra::Matrix2::from_diagonal(&self.focal_px);
         Some((self.focal_px.component_mul(&distorted) + self.center_px, focal * by_ideal * by_point))

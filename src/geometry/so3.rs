@@ -64,7 +64,8 @@ pub fn left_jacobian(phi_rad: &Vector3<f64>) -> Matrix3<f64> {
     let (a, b) = if angle < 1e-4 {
         (0.5 - angle * angle / 24.0, 1.0 / 6.0 - angle * angle / 120.0)
     } else {
-        ((1.0 - angle.cos()) / angle.powi(2), (angle - angle.sin()) / angle.powi(3))
+        // (1 - cos a) / a² by the half angle, which loses no digits
+        (0.5 * ((0.5 * angle).sin() / (0.5 * angle)).powi(2), (angle - angle.sin()) / angle.powi(3))
     };
     Matrix3::identity() + k * a + k * k * b
 }
@@ -81,7 +82,8 @@ pub fn left_jacobian_inverse(phi_rad: &Vector3<f64>) -> Matrix3<f64> {
     let c = if angle < 1e-3 {
         1.0 / 12.0 + angle * angle / 720.0
     } else {
-        1.0 / (angle * angle) - (1.0 + angle.cos()) / (2.0 * angle * angle.sin())
+        // (1 + cos a) / sin a = 1 / tan(a/2), which stays exact at half a turn
+        1.0 / (angle * angle) - 1.0 / (2.0 * angle * (0.5 * angle).tan())
     };
     Matrix3::identity() - k * 0.5 + k * k * c
 }

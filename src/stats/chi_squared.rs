@@ -3,6 +3,7 @@
 //! Source: Bar-Shalom, Li, Kirubarajan, "Estimation with Applications to Tracking and Navigation" (2001), section 5.4.
 
 use nalgebra::{SMatrix, SVector};
+use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// `errorᵀ covariance⁻¹ error`; `None` if the covariance is not positive definite.
@@ -15,7 +16,7 @@ pub fn normalized_error_squared<const N: usize>(
 }
 
 /// Two-sided bounds on the mean of normalised errors squared, each already divided by its degrees of freedom.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ConsistencyBounds {
     /// Lower bound, 1 being perfect.
     pub lower: f64,
@@ -46,7 +47,9 @@ impl ConsistencyBounds {
 
     /// What a normalised mean says of the estimator, in one sentence.
     pub fn diagnosis(&self, normalized_mean: f64) -> &'static str {
-        if normalized_mean > self.upper {
+        if normalized_mean.is_nan() {
+            "undetermined: there is no normalised error to judge"
+        } else if normalized_mean > self.upper {
             "overconfident: errors are larger than the covariance says"
         } else if normalized_mean < self.lower {
             "pessimistic: errors are smaller than the covariance says"

@@ -1,0 +1,58 @@
+//! The ground that the track of the designated point was really on.
+
+use super::true_camera::TrueCamera;
+use super::{EvaluationError, NamedTable};
+use crate::vision::TrackObservation;
+use nalgebra::{Vector2, Vector3};
+use std::path::Path;
+
+/// Where the designated point's track began and ended on the true surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrackedGround {
+    /// Time of the last picture in which the point was tracked, ns.
+    pub last_t_ns: i64,
+    /// Surface point (m, site) under the first observation.
+    pub first_in_site_m: Option<Vector3<f64>>,
+    /// Surface point (m, site) under the last observation.
+    pub last_in_site_m: Option<Vector3<f64>>,
+}
+
+/// One row of `tracks.csv`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrackedPixel {
+    /// Time in ns.
+    pub t_ns: i64,
+    /// The track's number.
+    pub track_id: u64,
+    /// Pixel (u, v).
+    pub pixel_px: Vector2<f64>,
+}
+
+/// Reads `tracks.csv` of a result; nothing where there is none.
+pub fn read_tracks(result_folder: &Path) -> Result<Vec<TrackedPixel>, EvaluationError> {
+    let path = result_folder.join("tracks.csv");
+    if !path.is_file() {
+        return Ok(vec![]);
+    }
+    let table = NamedTable::read(&path)?;
+    let [t, id, u, v] = table.places(["t_ns", "track_id", "u_px", "v_px"])?;
+    let pixel = |row: usize| {
+        let track_id = u64::try_from(table.integer(row, id)?).map_err(|_| table.malformed(row, id, "is negative"))?;
+        let pixel_px = Vector2::new(table.number(row, u)?, table.number(row, v)?);
+        Ok(TrackedPixel { t_ns: table.integer(row, t)?, track_id, pixel_px })
+    };
+    (0..table.len()).map(pixel).collect()
+}
+
+/// Ground under the designated point's track; `None` if it was never tracked.
+pub fn tracked_ground(tracks: &[TrackedPixel], camera: &TrueCamera) -> Result<Option<TrackedGround>, EvaluationError> {
+    let designated = || tracks.iter().filter(|o| o.track_id == TrackObservation::DESIGNATED);
+    let (Some(first), Some(last)) = (designated().min_by_key(|o| o.t_ns), designated().max_by_key(|o| o.t_ns)) else {
+        return Ok(None);
+    };
+    let under = |seen: &TrackedPixel| -> Result<Option<Vector3<f64>>, EvaluationError> {
+        let depth = camera.depth(seen.t_ns)?;
+        Ok(depth.and_then(|depth| camera.surface_point(seen.t_ns, &seen.pixel_px, &depth)))
+    };
+    Ok(Some(TrackedGround { last_t_ns: last.t_ns, first_in_site_m: under(first)?, last_in_site_m: under(last)? }))
+}
