@@ -1,0 +1,95 @@
+//! One interface to every way of choosing the unknown landmark.
+
+use super::{Metric, Triangle, Viewpoint, golden_section, metric, posterior_position_variance_m2};
+use nalgebra::Vector3;
+use rand::{Rng, RngExt};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{FRAC_PI_4, PI, TAU};
+
+/// How the ideal landmark is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Selector {
+    /// Least depth error, closed form (Li et al. 2023).
+    #[default]
+    DepthError,
+    /// Largest non-zero smallest singular value of H.
+    Svd,
+    /// Least geometric dilution of precision.
+    Gdop,
+    /// Best condition number of H.
+    Condition,
+    /// Least position covariance after three epochs, terrain prior included.
+    Covariance,
+    /// Anywhere within 45° of nadir, uniform in solid angle.
+    Random,
+    /// No unknown landmark at all.
+    None,
+}
+
+impl Selector {
+    /// The ideal landmark on the ground plane, in the site frame (m); `None` where the lander is not above the plane,
+    /// and always for [`Selector::None`].
+    ///
+    /// The searches run over β in the vertical plane of the velocity (α = γ). Where the lander hardly descends and the
+    /// triangle has no corner D, the ground point at nadir is given. `random` is drawn from by [`Selector::Random`] alone.
+    pub fn ideal_landmark_in_site_m(&self, view: &Viewpoint, random: &mut impl Rng) -> Option<Vector3<f64>> {
+        let point_m = match self {
+            Selector::None => return None,
+            Selector::DepthError => by_triangle(view, Triangle::minimum),
+            Selector::Svd => by_metric(view, Metric::SingularValue),
+            Selector::Gdop => by_metric(view, Metric::Dilution),
+            Selector::Condition => by_metric(view, Metric::Condition),
+            Selector::Covariance => by_covariance(view),
+            Selector::Random => view.lander_in_site_m + random_direction(random),
+        };
+        view.ground_point_in_site_m(&(point_m - view.lander_in_site_m))
+    }
+}
+
+fn nadir_in_site_m(view: &Viewpoint) -> Vector3<f64> {
+    Vector3::new(view.lander_in_site_m.x, view.lander_in_site_m.y, 0.0)
+}
+
+fn by_triangle(view: &Viewpoint, minimum: impl Fn(&Triangle) -> (f64, f64)) -> Vector3<f64> {
+    Triangle::of(view).map_or(nadir_in_site_m(view), |triangle| {
+        let (alpha_rad, beta_rad) = minimum(&triangle);
+        triangle.landmark_in_site_m(view, alpha_rad, beta_rad)
+    })
+}
+
+fn by_metric(view: &Viewpoint, kind: Metric) -> Vector3<f64> {
+    by_triangle(view, |triangle| {
+        let alpha_rad = triangle.path_angle_rad;
+        let cost = |beta_rad: f64| {
+            -metric(kind, &view.lander_in_site_m, &triangle.landmark_in_site_m(view, alpha_rad, beta_rad))
+        };
+        (alpha_rad, golden_section(cost, 0.0, PI - alpha_rad, Triangle::EVALUATIONS).0)
+    })
+}
+
+/// Best of a polar grid about the site, its radii in proportion to the height.
+fn by_covariance(view: &Viewpoint) -> Vector3<f64> {
+    const AZIMUTHS: usize = 12;
+    let radii = [0.03, 0.06, 0.125, 0.25, 0.5, 1.0, 1.5];
+    let point = |radius: f64, azimuth: usize| {
+        let angle_rad = TAU * azimuth as f64 / AZIMUTHS as f64;
+        Vector3::new(angle_rad.cos(), angle_rad.sin(), 0.0) * (radius * view.lander_in_site_m.z)
+    };
+    let in_reach =
+        |p: &Vector3<f64>| (-Vector3::z()).angle(&(p - view.lander_in_site_m)) <= view.ground.largest_off_nadir_rad;
+    let costs = radii
+        .iter()
+        .flat_map(|radius| (0..AZIMUTHS).map(|azimuth| point(*radius, azimuth)))
+        .filter(in_reach)
+        .map(|p| (p, posterior_position_variance_m2(view, &p)));
+    costs.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(nadir_in_site_m(view), |(p, _)| p)
+}
+
+/// Uniform in solid angle within 45° of nadir, site axes.
+fn random_direction(random: &mut impl Rng) -> Vector3<f64> {
+    let cosine = random.random_range(FRAC_PI_4.cos()..1.0);
+    let azimuth_rad = random.random_range(0.0..TAU);
+    let sine = (1.0 - cosine * cosine).sqrt();
+    Vector3::new(sine * azimuth_rad.cos(), sine * azimuth_rad.sin(), -cosine)
+}
