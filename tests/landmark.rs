@@ -154,7 +154,9 @@ fn rivals_agree_with_the_closed_form() {
     let by_depth = ideal(Selector::DepthError);
     for selector in [Selector::Svd, Selector::Gdop, Selector::Condition] {
         let p = ideal(selector);
-        assert!((p - shared).norm() < 0.03 * height, "{selector:?} {p}");
+        // The search stays in the velocity's vertical plane, off which `shared` lies by a little.
+        let loss = 1.0 - metric(Metric::ClosedForm, &r, &p) / metric(Metric::ClosedForm, &r, &shared);
+        assert!((0.0..2e-3).contains(&loss), "{selector:?} loses {loss} at {p}");
         let apart = (p - by_depth).norm() / height;
         assert!((0.05..0.25).contains(&apart), "{selector:?} is {apart} heights from the depth error's point");
     }
@@ -180,7 +182,8 @@ fn covariance_choice_is_the_best_of_all() {
     let best = cost(Selector::Covariance);
     let prior = view.covariance.fixed_view::<3, 3>(0, 0).trace();
     for selector in [Selector::DepthError, Selector::Svd, Selector::Random] {
-        assert!(best <= cost(selector) && cost(selector) < prior, "{selector:?}");
+        let other = cost(selector);
+        assert!(best <= other && other < prior, "{selector:?}: {best} {other} {prior}");
     }
 }
 

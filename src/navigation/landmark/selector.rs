@@ -68,22 +68,43 @@ fn by_metric(view: &Viewpoint, kind: Metric) -> Vector3<f64> {
     })
 }
 
-/// Best of a polar grid about the site, its radii in proportion to the height.
+/// Best of two polar grids, about the site and about nadir, with radii in proportion to the height, then refined.
 fn by_covariance(view: &Viewpoint) -> Vector3<f64> {
     const AZIMUTHS: usize = 12;
-    let radii = [0.03, 0.06, 0.125, 0.25, 0.5, 1.0, 1.5];
-    let point = |radius: f64, azimuth: usize| {
+    let height_m = view.lander_in_site_m.z;
+    let spoke = |azimuth: usize| {
         let angle_rad = TAU * azimuth as f64 / AZIMUTHS as f64;
-        Vector3::new(angle_rad.cos(), angle_rad.sin(), 0.0) * (radius * view.lander_in_site_m.z)
+        Vector3::new(angle_rad.cos(), angle_rad.sin(), 0.0) * height_m
     };
-    let in_reach =
-        |p: &Vector3<f64>| (-Vector3::z()).angle(&(p - view.lander_in_site_m)) <= view.ground.largest_off_nadir_rad;
-    let costs = radii
-        .iter()
-        .flat_map(|radius| (0..AZIMUTHS).map(|azimuth| point(*radius, azimuth)))
-        .filter(in_reach)
-        .map(|p| (p, posterior_position_variance_m2(view, &p)));
-    costs.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(nadir_in_site_m(view), |(p, _)| p)
+    let grid = [(Vector3::zeros(), [0.03, 0.1, 0.3]), (nadir_in_site_m(view), [0.3, 0.6, 1.2])];
+    let points = grid.iter().flat_map(|(center_m, radii)| {
+        radii.iter().flat_map(move |radius| (0..AZIMUTHS).map(move |azimuth| center_m + spoke(azimuth) * *radius))
+    });
+    let best = points.map(|p| (variance_m2(view, &p), p)).min_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or(nadir_in_site_m(view), |start| refined(view, start))
+}
+
+/// Compass search: steps of a fifth of the height, halved where none of four helps.
+fn refined(view: &Viewpoint, start: (f64, Vector3<f64>)) -> Vector3<f64> {
+    let (mut least, mut at_m) = start;
+    let mut step_m = 0.2 * view.lander_in_site_m.z;
+    for _ in 0..10 {
+        let around = [Vector3::x(), -Vector3::x(), Vector3::y(), -Vector3::y()].map(|d| at_m + d * step_m);
+        match around.iter().map(|p| (variance_m2(view, p), *p)).min_by(|a, b| a.0.total_cmp(&b.0)) {
+            Some((variance, p)) if variance < least => (least, at_m) = (variance, p),
+            _ => step_m *= 0.5,
+        }
+    }
+    at_m
+}
+
+/// The look-ahead's variance, infinite beyond the largest angle off nadir.
+fn variance_m2(view: &Viewpoint, point_m: &Vector3<f64>) -> f64 {
+    let off_nadir_rad = (-Vector3::z()).angle(&(point_m - view.lander_in_site_m));
+    if off_nadir_rad > view.ground.largest_off_nadir_rad {
+        return f64::INFINITY;
+    }
+    posterior_position_variance_m2(view, point_m)
 }
 
 /// Uniform in solid angle within 45° of nadir, site axes.
