@@ -152,6 +152,7 @@ pub const REFERENCE: Case =
 
 /// One epoch's error and what the filter thinks of it.
 pub struct Epoch {
+    pub own: f64,
     pub error: SVector<f64, 9>,
     pub covariance: SMatrix<f64, 9, 9>,
 }
@@ -227,7 +228,17 @@ pub fn fly(case: &Case, run: u64) -> Vec<Epoch> {
                 }
             }
         }
-        epochs.push(Epoch { error: error(&now, &estimate), covariance: case.kind.site_covariance(&estimate) });
+        let st = &estimate.state;
+        let mut own = SVector::<f64, 9>::zeros();
+        own.fixed_rows_mut::<3>(0)
+            .copy_from(&(now.lander_from_site * now.position_m - st.lander_from_site * st.lander_in_site_m));
+        own.fixed_rows_mut::<3>(3).copy_from(
+            &(now.lander_from_site * now.velocity_m_s - st.lander_from_site * st.lander_velocity_in_site_m_s),
+        );
+        own.fixed_rows_mut::<3>(6).copy_from(&error(&now, &estimate).fixed_rows::<3>(6));
+        let own = normalized_error_squared(&own, &estimate.covariance.fixed_view::<9, 9>(0, 0).into_owned())
+            .map_or(f64::INFINITY, |x| x / 9.0);
+        epochs.push(Epoch { own, error: error(&now, &estimate), covariance: case.kind.site_covariance(&estimate) });
     }
     epochs
 }

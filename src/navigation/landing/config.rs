@@ -27,7 +27,8 @@ pub struct LandingConfig {
     pub selector: Selector,
     /// Number of unknown landmarks observed at a time (default 1).
     pub unknown_landmarks: usize,
-    /// Observations of an unknown landmark, the first one included, before another may take its place (default 3).
+    /// Accepted observations of an unknown landmark, after the one that initialises it, before another may take its place
+    /// (default 3).
     pub reselect_after: usize,
     /// Gravity at the site, downward, m/s² (default 3.711, Mars).
     pub gravity_m_s2: f64,
@@ -99,7 +100,7 @@ impl LandingConfig {
                 g.largest_off_nadir_rad > 0.0 && g.largest_off_nadir_rad < 1.5,
                 "use 1.2 or so, below 1.5",
             ),
-            ("reselect_after", self.reselect_after as f64, self.reselect_after >= 2, "use 3 or more"),
+            ("reselect_after", self.reselect_after as f64, self.reselect_after >= 1, "use 3 or more"),
             ("unknown_landmarks", self.unknown_landmarks as f64, self.unknown_landmarks <= 50, "use 1 to 50"),
             ("first_iterations", self.first_iterations as f64, self.first_iterations >= 1, "use 6 or so"),
         ];

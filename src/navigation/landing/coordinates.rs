@@ -84,11 +84,15 @@ impl FilterKind {
     }
 
     /// Covariance of the errors of position (m), velocity (m/s) and attitude ψ (rad), all in site axes, where
-    /// `true site_from_lander = exp(ψ) * estimated`.
+    /// `true site_from_lander = exp(ψ) * estimated`; of second order in the errors where the change of coordinates is
+    /// not linear.
     pub fn site_covariance(self, estimate: &DescentEstimate) -> SMatrix<f64, 9, 9> {
         let j = self.site_jacobian(&estimate.state);
         let lander = estimate.covariance.fixed_view::<LANDMARKS, LANDMARKS>(0, 0).into_owned();
-        let p = j * lander * j.transpose();
+        let mut p = j * lander * j.transpose();
+        if self == FilterKind::Hybrid {
+            p += hybrid::site_second_moment(&estimate.state, &lander);
+        }
         (p + p.transpose()) * 0.5
     }
 }

@@ -112,3 +112,36 @@ pub(super) fn site_jacobian(state: &DescentState) -> SMatrix<f64, 9, 9> {
     }
     j
 }
+
+/// What the second order of r = exp(ψ×)(r̂ + e), e = Ĉᵀ s̃, adds to the second moments of r̃ and ṽ: a yaw that is off by ψ
+/// bends the error into an arc, ½ ψ² |r| across it. For quadratic forms ½ xᵀ A_i x of a Gaussian x with covariance P it
+/// is ½ tr(A_i P A_j P) + ¼ tr(A_i P) tr(A_j P).
+pub(super) fn site_second_moment(state: &DescentState, covariance: &SMatrix<f64, 9, 9>) -> SMatrix<f64, 9, 9> {
+    let site_from_lander = state.lander_from_site.inverse().to_rotation_matrix().into_inner();
+    let mut turn = SMatrix::<f64, 9, 9>::identity();
+    turn.fixed_view_mut::<3, 3>(POSITION, POSITION).copy_from(&site_from_lander);
+    turn.fixed_view_mut::<3, 3>(VELOCITY, VELOCITY).copy_from(&site_from_lander);
+    let p = turn * covariance * turn.transpose();
+    let ap: [SMatrix<f64, 9, 9>; 6] = std::array::from_fn(|row| {
+        let (start, vector) =
+            if row < 3 { (POSITION, &state.lander_in_site_m) } else { (VELOCITY, &state.lander_velocity_in_site_m_s) };
+        second_derivative(row % 3, start, vector) * p
+    });
+    SMatrix::from_fn(|i, j| {
+        if i < 6 && j < 6 { 0.5 * (ap[i] * ap[j]).trace() + 0.25 * ap[i].trace() * ap[j].trace() } else { 0.0 }
+    })
+}
+
+/// A_i of component i of ψ×e + ½ ψ×(ψ×r̂), where e starts at `start`.
+fn second_derivative(i: usize, start: usize, vector: &Vector3<f64>) -> SMatrix<f64, 9, 9> {
+    let mut a = SMatrix::<f64, 9, 9>::zeros();
+    let axis = Vector3::ith(i, 1.0);
+    // e_i · (ψ × e) = ψ · (e × e_i) = -ψᵀ [e_i×] e.
+    let mixed = -hat(&axis);
+    a.fixed_view_mut::<3, 3>(ATTITUDE, start).copy_from(&mixed);
+    a.fixed_view_mut::<3, 3>(start, ATTITUDE).copy_from(&mixed.transpose());
+    let outer = axis * vector.transpose();
+    let bend = (outer + outer.transpose()) * 0.5 - Matrix3::identity() * vector[i];
+    a.fixed_view_mut::<3, 3>(ATTITUDE, ATTITUDE).copy_from(&bend);
+    a
+}

@@ -47,7 +47,7 @@ pub fn with_landmark(
     state.landmarks.push(UnknownLandmark {
         track_id: bearing.track_id,
         position_in_site_m: new.position_in_site_m,
-        observations: 1,
+        observations: 0,
         gated: 0,
         slot,
     });

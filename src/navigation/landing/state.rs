@@ -18,7 +18,7 @@ pub struct UnknownLandmark {
     pub track_id: u64,
     /// Position in the site frame, m.
     pub position_in_site_m: Vector3<f64>,
-    /// Accepted observations, the initialising one included.
+    /// Accepted observations after the initialising one.
     pub observations: usize,
     /// Observations gated since the last accepted one.
     pub gated: usize,

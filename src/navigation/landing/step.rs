@@ -155,7 +155,7 @@ impl<'a> Selection<'a> {
         let ahead = LookAhead {
             view: &self.view,
             increment: &self.frame.increment,
-            images: self.config.reselect_after - 1,
+            images: self.config.reselect_after,
             margin_px: self.config.edge_margin_px,
         };
         let bearing_of = |c: &Candidate| seen.iter().copied().find(|b| b.track_id == c.track_id);
