@@ -1,0 +1,114 @@
+//! Options of the landing navigation.
+
+use super::LandingError;
+use crate::navigation::filter::Gate;
+use crate::navigation::landmark::{GroundPrior, Selector};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Coordinates of the error state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FilterKind {
+    /// Position, velocity and landmarks in lander axes, attitude in site axes: consistent.
+    #[default]
+    Hybrid,
+    /// Position, velocity and landmarks in site axes, attitude in lander axes: the paper's, overconfident in yaw.
+    Standard,
+}
+
+/// Options of [`navigate`](super::navigate).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LandingConfig {
+    /// Coordinates of the error state (default hybrid).
+    pub filter: FilterKind,
+    /// How unknown landmarks are chosen (default depth-error).
+    pub selector: Selector,
+    /// Number of unknown landmarks observed at a time (default 1).
+    pub unknown_landmarks: usize,
+    /// Accepted observations of an unknown landmark, after the one that initialises it, before another may take its place
+    /// (default 3).
+    pub reselect_after: usize,
+    /// Gravity at the site, downward, m/s² (default 3.711, Mars).
+    pub gravity_m_s2: f64,
+    /// Images from a lower estimated height than this are not used, m (default 15).
+    pub minimum_image_height_m: f64,
+    /// Least 1σ of a pixel coordinate, px, whatever the tracker claims (default 0.1).
+    pub sigma_floor_px: f64,
+    /// Probability that a good measurement passes the gate (default 0.9999).
+    pub gate_confidence: f64,
+    /// Gauss–Newton steps of the first correction (default 6); later ones take one step.
+    pub first_iterations: usize,
+    /// A new landmark has to stay this far from the picture's edge while it is needed, px (default 4).
+    pub edge_margin_px: f64,
+    /// What is known of the ground's height.
+    pub ground: GroundPrior,
+    /// Seed of the random selector (default 0).
+    pub seed: u64,
+}
+
+impl Default for LandingConfig {
+    fn default() -> Self {
+        LandingConfig {
+            filter: FilterKind::Hybrid,
+            selector: Selector::DepthError,
+            unknown_landmarks: 1,
+            reselect_after: 3,
+            gravity_m_s2: 3.711,
+            minimum_image_height_m: 15.0,
+            sigma_floor_px: 0.1,
+            gate_confidence: 0.9999,
+            first_iterations: 6,
+            edge_margin_px: 4.0,
+            ground: GroundPrior::default(),
+            seed: 0,
+        }
+    }
+}
+
+impl LandingConfig {
+    /// Gravity in the site frame, m/s².
+    pub fn gravity_in_site_m_s2(&self) -> Vector3<f64> {
+        Vector3::new(0.0, 0.0, -self.gravity_m_s2)
+    }
+
+    /// The innovation gate.
+    pub fn gate(&self) -> Gate {
+        Gate { confidence: self.gate_confidence }
+    }
+
+    /// Checks every range.
+    ///
+    /// # Errors
+    /// [`LandingError::Config`] names the key and the cure.
+    pub fn validate(&self) -> Result<(), LandingError> {
+        let open_unit = |x: f64| x > 0.0 && x < 1.0;
+        let g = &self.ground;
+        let checks = [
+            ("gravity_m_s2", self.gravity_m_s2, self.gravity_m_s2 >= 0.0, "give it as a positive number"),
+            ("minimum_image_height_m", self.minimum_image_height_m, self.minimum_image_height_m > 0.0, "use 1 or more"),
+            ("sigma_floor_px", self.sigma_floor_px, self.sigma_floor_px > 0.0, "use 0.1 or so"),
+            ("gate_confidence", self.gate_confidence, open_unit(self.gate_confidence), "use 0.9999 or so, below 1"),
+            ("edge_margin_px", self.edge_margin_px, self.edge_margin_px >= 0.0, "use 0 or more"),
+            ("ground.sigma_height_m", g.sigma_height_m, g.sigma_height_m >= g.sigma_floor_m, "use 30 or so"),
+            ("ground.sigma_slope", g.sigma_slope, g.sigma_slope >= 0.0, "use 0.08 or so"),
+            ("ground.sigma_floor_m", g.sigma_floor_m, g.sigma_floor_m > 0.0, "use 0.1 or so"),
+            (
+                "ground.largest_off_nadir_rad",
+                g.largest_off_nadir_rad,
+                g.largest_off_nadir_rad > 0.0 && g.largest_off_nadir_rad < 1.5,
+                "use 1.2 or so, below 1.5",
+            ),
+            ("reselect_after", self.reselect_after as f64, self.reselect_after >= 1, "use 3 or more"),
+            ("unknown_landmarks", self.unknown_landmarks as f64, self.unknown_landmarks <= 50, "use 1 to 50"),
+            ("first_iterations", self.first_iterations as f64, self.first_iterations >= 1, "use 6 or so"),
+        ];
+        for (key, value, fine, cure) in checks {
+            if !(fine && value.is_finite()) {
+                return Err(LandingError::Config { key, value, cure });
+            }
+        }
+        Ok(())
+    }
+}

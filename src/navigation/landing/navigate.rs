@@ -1,0 +1,108 @@
+//! A whole descent.
+
+use super::imu::ImuRecord;
+use super::initialize::initial_estimate;
+use super::predict::predict;
+use super::step::{FrameInput, Navigator, StepReport, step};
+use super::{LandingConfig, LandingEpoch, LandingError, LandingInput, LandingResult};
+use crate::vision::TrackObservation;
+use std::collections::BTreeSet;
+
+/// Spacing of the epochs after the last frame, ns.
+const COAST_STEP_NS: i64 = 1_000_000_000;
+
+/// Estimates the lander's motion from IMU samples and tracks; `progress` hears the number of frames done.
+///
+/// # Errors
+/// [`LandingError`] for input or options that cannot be used. Missing images and wrong tracks are no errors: the filter
+/// then coasts on the IMU, and the result says when.
+pub fn navigate(
+    input: &LandingInput,
+    config: &LandingConfig,
+    progress: &dyn Fn(usize),
+) -> Result<LandingResult, LandingError> {
+    config.validate()?;
+    input.validate()?;
+    let imu = ImuRecord { samples: &input.imu, noise: &input.imu_noise };
+    let mount = input.mount();
+    let mut navigator = Navigator {
+        estimate: initial_estimate(&input.initial, config.filter),
+        corrected: false,
+        spent_tracks: BTreeSet::new(),
+        images: 0,
+    };
+    let mut result = LandingResult { epochs: Vec::new(), coasted: Vec::new(), used: 0, gated: 0, unusable_pixels: 0 };
+    let mut last_ns = input.initial.t_ns;
+    for (index, t_ns) in input.frame_times_ns.iter().copied().enumerate() {
+        let increment = imu.between(last_ns, t_ns)?;
+        let seen = at_time(&input.observations, t_ns);
+        let bearings: Vec<_> = seen.iter().filter_map(|o| mount.bearing(o, config.sigma_floor_px)).collect();
+        result.unusable_pixels += seen.len() - bearings.len();
+        let frame = FrameInput { increment, bearings };
+        let (after, report) = step(&navigator, &frame, &mount, config).ok_or(LandingError::BrokeDown { t_ns })?;
+        result.add(epoch(t_ns, &after, &report, config), last_ns);
+        (navigator, last_ns) = (after, t_ns);
+        progress(index + 1);
+    }
+    coast(&mut result, navigator, &imu, config)?;
+    Ok(result)
+}
+
+/// On the IMU alone from the last frame to the last sample.
+fn coast(
+    result: &mut LandingResult,
+    mut navigator: Navigator,
+    imu: &ImuRecord<'_>,
+    config: &LandingConfig,
+) -> Result<(), LandingError> {
+    let end_ns = imu.samples.last().map_or(i64::MIN, |s| s.t_ns);
+    let mut last_ns = result.epochs.last().map_or(end_ns, |e| e.t_ns);
+    while last_ns < end_ns {
+        let t_ns = (last_ns + COAST_STEP_NS).min(end_ns);
+        let increment = imu.between(last_ns, t_ns)?;
+        navigator.estimate = predict(&navigator.estimate, &increment, &config.gravity_in_site_m_s2(), config.filter);
+        result.add(epoch(t_ns, &navigator, &StepReport::default(), config), last_ns);
+        last_ns = t_ns;
+    }
+    Ok(())
+}
+
+/// The observations of one time in a list in order of time.
+fn at_time(observations: &[TrackObservation], t_ns: i64) -> &[TrackObservation] {
+    let start = observations.partition_point(|o| o.t_ns < t_ns);
+    let end = observations.partition_point(|o| o.t_ns <= t_ns);
+    &observations[start..end]
+}
+
+fn epoch(t_ns: i64, navigator: &Navigator, report: &StepReport, config: &LandingConfig) -> LandingEpoch {
+    let state = &navigator.estimate.state;
+    let unknown_tracks: Vec<u64> = state.landmarks.iter().map(|l| l.track_id).collect();
+    LandingEpoch {
+        t_ns,
+        site_from_lander: state.site_from_lander(),
+        lander_velocity_in_site_m_s: state.lander_velocity_in_site_m_s,
+        covariance: config.filter.site_covariance(&navigator.estimate),
+        normalized_innovation_squared: report.normalized_innovation_squared,
+        innovation_dof: 2 * report.used(),
+        gated: report.outcomes.len() - report.used(),
+        known_seen: report.outcomes.iter().any(|o| o.used && o.track_id == TrackObservation::DESIGNATED),
+        unknown_track: unknown_tracks.first().copied(),
+        unknown_tracks,
+    }
+}
+
+impl LandingResult {
+    /// Appends an epoch; without a used bearing it lengthens the coasted stretch since `last_ns`, or begins one.
+    fn add(&mut self, epoch: LandingEpoch, last_ns: i64) {
+        let used = epoch.innovation_dof / 2;
+        if used == 0 {
+            match self.coasted.last_mut().filter(|stretch| stretch.1 == last_ns) {
+                Some(stretch) => stretch.1 = epoch.t_ns,
+                None => self.coasted.push((last_ns.min(epoch.t_ns), epoch.t_ns)),
+            }
+        }
+        self.used += used;
+        self.gated += epoch.gated;
+        self.epochs.push(epoch);
+    }
+}

@@ -1,0 +1,51 @@
+//! What the navigation of a descent gives back.
+
+use nalgebra::{Isometry3, SMatrix, Vector3};
+
+/// The estimate at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LandingEpoch {
+    /// Time in ns.
+    pub t_ns: i64,
+    /// Estimated pose of the lander in the site frame, m.
+    pub site_from_lander: Isometry3<f64>,
+    /// Estimated velocity of the lander in the site frame, m/s.
+    pub lander_velocity_in_site_m_s: Vector3<f64>,
+    /// Covariance of the errors, true less estimated: position (m), velocity (m/s) and attitude ψ (rad), all in site
+    /// axes, where `true site_from_lander = exp(ψ) * estimated`.
+    pub covariance: SMatrix<f64, 9, 9>,
+    /// Joint normalised innovation squared of the bearings used; `None` if none was.
+    pub normalized_innovation_squared: Option<f64>,
+    /// Its degrees of freedom.
+    pub innovation_dof: usize,
+    /// Bearings of landmarks that were gated.
+    pub gated: usize,
+    /// Whether the designated point was used.
+    pub known_seen: bool,
+    /// The first of the unknown landmarks being followed after this image.
+    pub unknown_track: Option<u64>,
+    /// All unknown landmarks being followed after this image.
+    pub unknown_tracks: Vec<u64>,
+}
+
+impl LandingEpoch {
+    /// 1σ of position (m), velocity (m/s) and attitude (rad), all in site axes.
+    pub fn sigma(&self) -> [f64; 9] {
+        std::array::from_fn(|k| self.covariance[(k, k)].max(0.0).sqrt())
+    }
+}
+
+/// A navigated descent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LandingResult {
+    /// One epoch a frame, then one a second on the IMU alone to the end of its record.
+    pub epochs: Vec<LandingEpoch>,
+    /// Stretches (first and last time in ns) flown on the IMU alone: images missing, gated or too low.
+    pub coasted: Vec<(i64, i64)>,
+    /// Bearings of landmarks used.
+    pub used: usize,
+    /// Bearings of landmarks gated.
+    pub gated: usize,
+    /// Observations whose pixel lies where the distortion cannot be inverted.
+    pub unusable_pixels: usize,
+}
