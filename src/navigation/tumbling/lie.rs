@@ -9,8 +9,8 @@ type Gradient<const R: usize> = SMatrix<f64, R, 11>;
 
 /// Gradients (3×11 each) of the Lie derivatives of order 0 to `highest_order` of the measured quaternion's vector part,
 /// for [`rank_by_order`](crate::navigation::observability::rank_by_order). Rows are Taylor coefficients over the power of
-/// the rate, `c_k / |ω|^k`; columns are (δq_v, δω / |ω|, δl) with the multiplicative error `q = δq ⊗ q̂`, all without
-/// unit. Source: Deng et al. 2024, equations 16 to 20. `None` at rest or for a singular tensor.
+/// the rate, `c_k / |ω|^k`; columns are (δq_v, δω / |ω|, δl), all without unit. Source: Deng et al. 2024, equations 15 to
+/// 20. `None` at rest, for a singular tensor, and at half a turn, where the vector part is no chart of the rotations.
 pub fn lie_derivatives(
     state: &SpinState,
     inertia: &InertiaRatios,
@@ -19,7 +19,7 @@ pub fn lie_derivatives(
     let speed = state.rate_in_asteroid_rad_s.norm();
     let tensor = inertia.tensor();
     let inverse = tensor.try_inverse()?;
-    if speed == 0.0 {
+    if speed == 0.0 || state.asteroid_from_inertial.w == 0.0 {
         return None;
     }
     let mut rate = Series::start_rate(&(state.rate_in_asteroid_rad_s / speed));
@@ -73,15 +73,14 @@ impl Series<3> {
 }
 
 impl Series<4> {
-    /// Shuster's quaternion, scalar last, with `q = δq ⊗ q̂`.
+    /// Shuster's quaternion, scalar last, the scalar following from the vector part by the unit norm.
     fn start_attitude(state: &SpinState) -> Self {
         let h = state.asteroid_from_inertial.quaternion();
         let q = Vector4::new(-h.i, -h.j, -h.k, h.w);
         let mut gradient = Gradient::<4>::zeros();
         for i in 0..3 {
-            let mut unit = Vector3::zeros();
-            unit[i] = 1.0;
-            gradient.set_column(i, &Vector4::new(unit.x, unit.y, unit.z, -q[i] / q.w));
+            gradient[(i, i)] = 1.0;
+            gradient[(3, i)] = -q[i] / q.w;
         }
         Series { values: vec![q], gradients: vec![gradient] }
     }

@@ -8,7 +8,7 @@ use nalgebra::{Quaternion, SMatrix, UnitQuaternion, Vector3};
 const STEP_RAD: f64 = 0.01;
 
 /// More steps between two times mean a rate that no picture could follow.
-const MOST_STEPS: f64 = 2000.0;
+const MOST_STEPS: f64 = 20_000.0;
 
 /// Derivative (6×8) of (attitude error in inertial axes, rate) by (initial rate, inertia ratios).
 pub type Sensitivity = SMatrix<f64, 6, 8>;
