@@ -1,1 +1,44 @@
-//! The `tumbling` room.
+//! Attitude, spin and inertia ratios of a small body that turns freely, from rotations between pictures.
+//!
+//! The camera does not turn, so its axes are the inertial ones; the asteroid axes are the camera's at the first picture.
+//! A pair of pictures gives `camera(to)_from_camera(from)` as a camera that moves around a resting body would see it, which
+//! is `A(to)⁻¹ A(from)` with `A = asteroid_from_inertial`. The motion is Euler's, so eight numbers say everything: the
+//! initial rate and five inertia ratios. [`estimate`] is the way in. Where the motion does not show a direction of the
+//! inertia (a pure spin hides three), the result names the direction and gives no number for it.
+//!
+//! Source: Deng et al., "Motion state estimation of small celestial bodies based on system observability analysis" (2024),
+//! with its errata put right (see [`PaperFilter`]): `ω̇ ≠ 0` does not imply full rank (one direction stays hidden on the
+//! separatrix), and rank 11 is generically reached with the third Lie derivative already ([`lie_derivatives`]).
+
+mod bound;
+mod config;
+mod determinacy;
+mod dynamics;
+mod error;
+mod estimate;
+mod files;
+mod fit;
+mod inertia;
+mod initial;
+mod lie;
+mod pair;
+mod paper;
+mod realtime;
+mod result;
+mod shooting;
+mod state;
+mod trajectory;
+
+pub use bound::{ArcBound, ArcDesign, arc_bound, planned_pairs};
+pub use config::{Estimator, PaperConfig, PaperIntegration, TumblingConfig};
+pub use determinacy::UndeterminedDirection;
+pub use dynamics::FreeBody;
+pub use error::TumblingError;
+pub use estimate::estimate;
+pub use files::{write_covariance_csv, write_estimate_csv};
+pub use inertia::{INERTIA_NAMES, InertiaRatios};
+pub use lie::lie_derivatives;
+pub use paper::PaperFilter;
+pub use result::{InertiaKnowledge, TumblingEpoch, TumblingResult};
+pub use state::SpinState;
+pub use trajectory::{Sensitivity, TrajectoryPoint, propagate};

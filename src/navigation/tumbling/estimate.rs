@@ -1,0 +1,91 @@
+//! The estimate from rotations between pictures: the recipe.
+
+use super::pair::{RotationPair, usable_pairs};
+use super::paper::{PaperFilter, chained_attitudes};
+use super::realtime::filter_after_first_arc;
+use super::result::{InertiaKnowledge, PairCount, TumblingEpoch, TumblingResult};
+use super::shooting::{ShootingFit, shoot};
+use super::{Estimator, TumblingConfig, TumblingError};
+use crate::vision::RelativeRotation;
+use nalgebra::SMatrix;
+
+/// Attitude, rate and inertia ratios at each picture of `frame_times_ns`, from the rotations with status ok between them.
+///
+/// A rotation is camera(t_to)_from_camera(t_from) of a camera that seems to move around a resting body:
+/// `asteroid_from_camera(t_to)⁻¹ * asteroid_from_camera(t_from)`. The camera itself must not turn, and the body must turn
+/// freely. The rotations' covariances weigh them.
+///
+/// # Errors
+/// Settings, times, pairs that are not usable, too few of them, or rotations that no free body makes: [`TumblingError`].
+pub fn estimate(
+    rotations: &[RelativeRotation],
+    frame_times_ns: &[i64],
+    config: &TumblingConfig,
+) -> Result<TumblingResult, TumblingError> {
+    config.validate()?;
+    let pairs = usable_pairs(rotations, frame_times_ns)?;
+    match config.estimator {
+        Estimator::Shooting => {
+            let shot = shoot(&pairs, &seconds(frame_times_ns), config)?;
+            Ok(shooting_result(shot, frame_times_ns, pairs.len()))
+        }
+        Estimator::Realtime => filter_after_first_arc(&pairs, frame_times_ns, config),
+        Estimator::Paper => filter_as_the_paper(&pairs, frame_times_ns, config),
+    }
+}
+
+/// Times since the first picture in s.
+pub(super) fn seconds(frame_times_ns: &[i64]) -> Vec<f64> {
+    frame_times_ns.iter().map(|t| (t - frame_times_ns[0]) as f64 * 1e-9).collect()
+}
+
+/// Epochs of a shooting fit; the covariance follows the motion through the sensitivities.
+pub(super) fn shooting_epochs(shot: &ShootingFit, frame_times_ns: &[i64]) -> Vec<TumblingEpoch> {
+    let ratio_covariance = shot.covariance.fixed_view::<5, 5>(3, 3).into_owned();
+    let inertia = InertiaKnowledge::new(&shot.fit.inertia, &ratio_covariance, &shot.undetermined);
+    let points = shot.fit.points.iter().zip(frame_times_ns);
+    points
+        .map(|(point, &t_ns)| TumblingEpoch {
+            t_ns,
+            asteroid_from_inertial: point.state.asteroid_from_inertial,
+            rate_in_asteroid_rad_s: point.state.rate_in_asteroid_rad_s,
+            covariance: symmetric(&(point.sensitivity * shot.covariance * point.sensitivity.transpose())),
+            inertia: inertia.clone(),
+        })
+        .collect()
+}
+
+fn shooting_result(shot: ShootingFit, frame_times_ns: &[i64], given: usize) -> TumblingResult {
+    let epochs = shooting_epochs(&shot, frame_times_ns);
+    let covariance = shot.covariance.fixed_view::<5, 5>(3, 3).into_owned();
+    let count = PairCount { used: shot.pairs_used, given, residual_rms_sigma: shot.residual_rms_sigma };
+    TumblingResult::new(epochs, &shot.fit.inertia, &covariance, shot.undetermined, count)
+}
+
+fn filter_as_the_paper(
+    pairs: &[RotationPair],
+    frame_times_ns: &[i64],
+    config: &TumblingConfig,
+) -> Result<TumblingResult, TumblingError> {
+    let times_s = seconds(frame_times_ns);
+    let (attitudes, used) = chained_attitudes(pairs, times_s.len());
+    let mut filter = PaperFilter::new(&config.paper);
+    let mut epochs = vec![filter.epoch(frame_times_ns[0])];
+    let (mut squares, mut innovations) = (0.0, 0_usize);
+    for k in 1..times_s.len() {
+        let diverged = || TumblingError::Diverged { t_ns: frame_times_ns[k] };
+        filter.predict(times_s[k] - times_s[k - 1]).ok_or_else(diverged)?;
+        if let Some(attitude) = &attitudes[k] {
+            squares += filter.correct(attitude).ok_or_else(diverged)?;
+            innovations += 3;
+        }
+        epochs.push(filter.epoch(frame_times_ns[k]));
+    }
+    let residual_rms_sigma = (squares / innovations.max(1) as f64).sqrt();
+    let count = PairCount { used, given: pairs.len(), residual_rms_sigma };
+    Ok(TumblingResult::new(epochs, filter.inertia(), &filter.inertia_covariance(), Vec::new(), count))
+}
+
+pub(super) fn symmetric<const N: usize>(matrix: &SMatrix<f64, N, N>) -> SMatrix<f64, N, N> {
+    (matrix + matrix.transpose()) * 0.5
+}
