@@ -110,6 +110,9 @@ pub(super) struct Fits {
 /// Matches used to compare starts; the winners are refined on all.
 const SCREENING: usize = 250;
 
+/// By how much a match the GRIC of general motion must lie below the plane's.
+const GENERAL_HANDICAP: f64 = 0.25;
+
 impl Fits {
     pub(super) fn new(
         sights: &[Sight],
@@ -137,12 +140,18 @@ impl Fits {
         }
     }
 
-    /// The model with the lowest GRIC.
+    /// The model with the lowest GRIC; general motion has to win clearly. Where relief barely shows above the noise, its
+    /// fit has several shallow minima and promises too much, while the plane's rotation is as good.
     pub(super) fn best(&self, sights: &[Sight]) -> Option<Candidate> {
         let candidates = || self.all();
         // The noise is that of the model that explains most with the least.
         let scale = candidates().map(|c| c.scale()).fold(f64::INFINITY, f64::min).max(0.1);
-        candidates().min_by(|a, b| a.gric(sights, scale).total_cmp(&b.gric(sights, scale)))
+        let handicap = |c: &Candidate| match c {
+            Candidate::General(_) => GENERAL_HANDICAP * sights.len() as f64,
+            _ => 0.0,
+        };
+        let score = |c: &Candidate| c.gric(sights, scale) + handicap(c);
+        candidates().min_by(|a, b| score(a).total_cmp(&score(b)))
     }
 
     fn all(&self) -> impl Iterator<Item = Candidate> + '_ {

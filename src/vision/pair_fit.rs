@@ -57,6 +57,7 @@ pub(super) fn residual(relation: Relation, matrix: &Matrix3<f64>, sight: &Sight)
             let (left, right) = (matrix.tr_mul(&sight.to_ray()), matrix * sight.from_ray());
             let (g1, g2) = (left.xy(), right.xy());
             let variance = g1.dot(&(sight.from_covariance * g1)) + g2.dot(&(sight.to_covariance * g2));
+            let variance = variance + near_epipole(matrix, sight);
             Vector2::new(sight.to_ray().dot(&right) / variance.max(1e-300).sqrt(), 0.0)
         }
         Relation::Transfer => {
@@ -68,6 +69,15 @@ pub(super) fn residual(relation: Relation, matrix: &Matrix3<f64>, sight: &Sight)
             whitening * (sight.to - p.xy() / p.z)
         }
     }
+}
+
+/// Extra variance that stills a point within some tens of σ of an epipole: there the direction of its epipolar line is
+/// made of noise, and a fit would steer the epipole by it. (The second-order term of the constraint's error, enlarged.)
+fn near_epipole(matrix: &Matrix3<f64>, sight: &Sight) -> f64 {
+    const REACH: f64 = 40.0;
+    let inner = matrix.fixed_view::<2, 2>(0, 0);
+    let mixed = inner * sight.from_covariance * inner.transpose() * sight.to_covariance;
+    REACH * REACH * mixed.trace()
 }
 
 fn transfer_whitening(
@@ -95,7 +105,7 @@ fn linearized<const N: usize>(
         Relation::Epipolar => {
             let (g1, right) = (matrix.tr_mul(&x2).xy(), matrix * x1);
             let (s1, s2) = (sight.from_covariance * g1, sight.to_covariance * right.xy());
-            let variance = (g1.dot(&s1) + right.xy().dot(&s2)).max(1e-300);
+            let variance = (g1.dot(&s1) + right.xy().dot(&s2) + near_epipole(matrix, sight)).max(1e-300);
             let deviation = variance.sqrt();
             let r = x2.dot(&right) / deviation;
             let mut gradient = SVector::zeros();
@@ -246,20 +256,38 @@ pub(super) fn robust_scale<const N: usize, M: PairModel<N>>(model: &M, sights: &
     (median / median_ratio(M::RELATION)).clamp(0.03, widest / gate_sigma(M::RELATION))
 }
 
+/// Second derivative of the cost, by differences of its gradient.
+///
+/// The product of Jacobians will not do: the noise of a pixel along its epipolar line looks like parallax, that is, like
+/// information (Kanatani 1996, the bias of the moment matrix). The second derivative knows better.
+pub(super) fn observed_information<const N: usize, M: PairModel<N>>(
+    model: &M,
+    sights: &[Sight],
+    loss: Loss,
+) -> SMatrix<f64, N, N> {
+    const STEP: f64 = 1e-6;
+    let mut information = SMatrix::<f64, N, N>::zeros();
+    for j in 0..N {
+        let mut step = SVector::<f64, N>::zeros();
+        step[j] = STEP;
+        let ahead = normal_equations(&model.moved(&step), sights, loss).gradient;
+        let behind = normal_equations(&model.moved(&-step), sights, loss).gradient;
+        information.set_column(j, &((ahead - behind) / (2.0 * STEP)));
+    }
+    (information + information.transpose()) * 0.5
+}
+
 fn finish<const N: usize, M: PairModel<N>>(model: M, sights: &[Sight], scale: f64) -> PairFit<N, M> {
     let gate = gate_sigma(M::RELATION) * scale;
     let matrix = model.matrix().0;
     let inliers: Vec<bool> = sights.iter().map(|s| residual(M::RELATION, &matrix, s).norm() < gate).collect();
-    let normal = normal_equations(&model, sights, Loss::Truncated(gate));
+    let agreeing: Vec<Sight> = sights.iter().zip(&inliers).filter(|(_, inlier)| **inlier).map(|(s, _)| *s).collect();
+    let information = observed_information(&model, &agreeing, Loss::Truncated(f64::INFINITY));
     let rows = if M::RELATION == Relation::Epipolar { 1 } else { 2 };
-    let inside: f64 = sights
-        .iter()
-        .zip(&inliers)
-        .filter(|(_, inlier)| **inlier)
-        .map(|(s, _)| residual(M::RELATION, &matrix, s).norm_squared())
-        .sum();
-    let freedom = (inliers.iter().filter(|i| **i).count() * rows) as f64 - N as f64;
+    let inside: f64 = agreeing.iter().map(|s| residual(M::RELATION, &matrix, s).norm_squared()).sum();
+    let freedom = (agreeing.len() * rows) as f64 - N as f64;
     let variance = if freedom > 0.0 { inside / freedom } else { f64::INFINITY };
-    let covariance = normal.information.try_inverse().filter(|_| variance.is_finite()).map(|c| c * variance.max(9e-4));
+    let covariance =
+        information.cholesky().filter(|_| variance.is_finite()).map(|c| c.inverse() * variance.max(9e-4));
     PairFit { model, covariance, inliers, scale: variance.sqrt().max(0.03) }
 }

@@ -62,13 +62,20 @@ fn table_of_errors_over_bound() {
 #[test]
 #[ignore = "debug"]
 fn debug_pairs() {
-    for seed in 0..8 {
-        let scene = descent(200, 0.1, seed);
-        let pair = scene.matches(0.1, 0.2, seed);
-        for h in [PairHints::default(), prior(&scene)] {
-            let s = solve(&scene, &pair, &h);
-            let sg = s.covariance_rad2.diagonal().map(|v| v.sqrt().to_degrees());
-            println!("{seed} {:?} {:?} err {:.4} sigma {:?} inl {} scale {:.3} dir {:?} (true {:?})", s.status, s.model, angle_deg(&scene.rotation, &s.camera_to_from_camera_from), sg.as_slice(), s.inlier_count(), s.noise_scale, s.direction_in_to.map(|d| d.into_inner()), scene.translation.normalize());
+    for (relief, sigma) in [(0.1, 0.3), (0.1, 0.5), (0.02, 0.5), (0.0, 0.5)] {
+        for seed in 0..40 {
+            let scene = descent(200, relief, seed);
+            let pair = scene.matches(sigma, 0.2, seed);
+            for (k, h) in [PairHints::default(), prior(&scene)].into_iter().enumerate() {
+                let s = solve(&scene, &pair, &h);
+                if s.status != PairStatus::Ok { continue; }
+                let d = so3::log(&(scene.rotation * s.camera_to_from_camera_from.inverse()));
+                let nees = d.dot(&(s.covariance_rad2.try_inverse().unwrap() * d)) / 3.0;
+                let sg = s.covariance_rad2.diagonal().map(|v| v.sqrt().to_degrees());
+                if nees > 4.0 {
+                    println!("{relief} {sigma} {seed} hint {k} nees {nees:.1} {:?} err {:.4} sigma {:.4?} inl {} scale {:.3} dir {:.3?}", s.model, d.norm().to_degrees(), sg.as_slice(), s.inlier_count(), s.noise_scale, s.direction_in_to.map(|d| d.into_inner()).unwrap().as_slice());
+                }
+            }
         }
     }
 }
