@@ -1,1 +1,4 @@
-//! Tests of the room `vision`.
+//! The image front end.
+
+mod bearings;
+mod rotation;

@@ -1,5 +1,57 @@
 //! The image front end: the only room that names OpenCV.
+//!
+//! Harris corners are found in every picture, located to a fraction of a pixel, described by ORB and matched from picture
+//! to picture. Each pair's matches are explained by the model that fits the scene, which gives the rotation between the
+//! pictures with its covariance, and verified matches chain into tracks. Plain results ([`TrackObservation`],
+//! [`RelativeRotation`]) and their files are free of OpenCV and are compiled without the `vision` feature too.
 
+#[cfg(feature = "vision")]
+mod candidates;
+#[cfg(feature = "vision")]
+mod config;
+#[cfg(feature = "vision")]
+mod descriptor;
+#[cfg(feature = "vision")]
+mod error;
+#[cfg(feature = "vision")]
+mod evenly;
+#[cfg(feature = "vision")]
+mod harris;
+#[cfg(feature = "vision")]
+mod matching;
+#[cfg(feature = "vision")]
+mod opencv_bridge;
+#[cfg(feature = "vision")]
+mod pair_fit;
+#[cfg(feature = "vision")]
+mod pair_models;
+#[cfg(feature = "vision")]
+mod plausible;
+#[cfg(feature = "vision")]
+mod relative_rotation;
 mod result;
+mod rotations_file;
+#[cfg(feature = "vision")]
+mod sight;
+mod text_table;
+mod tracks_file;
+#[cfg(feature = "vision")]
+mod usac;
 
+#[cfg(feature = "vision")]
+pub use config::{
+    DetectorConfig, FixedCenterConfig, FrontEndConfig, FrontEndMode, MatcherConfig, RotationConfig,
+};
+#[cfg(feature = "vision")]
+pub use descriptor::{Descriptor, Orientation, describe};
+#[cfg(feature = "vision")]
+pub use error::VisionError;
+#[cfg(feature = "vision")]
+pub use harris::{Feature, detect_harris, noise_sigma_dn};
+#[cfg(feature = "vision")]
+pub use matching::{Described, IndexMatch, match_features, match_features_guided};
+#[cfg(feature = "vision")]
+pub use relative_rotation::{PairHints, PairSolution, PixelMatches, relative_rotation};
 pub use result::{MatchedPair, PairStatus, RelativeRotation, RotationModel, TrackObservation};
+pub use rotations_file::{read_relative_rotations, write_relative_rotations};
+pub use tracks_file::{read_tracks, write_tracks};

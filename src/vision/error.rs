@@ -1,0 +1,54 @@
+//! Everything that can go wrong in the front end.
+
+use crate::dataset::DatasetError;
+use thiserror::Error;
+
+/// Why the front end could not do its work.
+#[derive(Debug, Error)]
+pub enum VisionError {
+    /// A picture or file at fault.
+    #[error(transparent)]
+    Dataset(#[from] DatasetError),
+    /// Too few pictures for a pair.
+    #[error("at least two pictures are needed, and {found} selected: check the folder and the range of frames")]
+    TooFewPictures {
+        /// Pictures selected.
+        found: usize,
+    },
+    /// A parameter outside its range.
+    #[error("front-end parameter {name} is {value}: {cure}")]
+    OutOfRange {
+        /// The key.
+        name: &'static str,
+        /// The value found.
+        value: f64,
+        /// What to do.
+        cure: &'static str,
+    },
+    /// A mask of another size than its picture.
+    #[error("the mask is {mask_width_px}x{mask_height_px} px, but its picture is {width_px}x{height_px} px")]
+    MaskSize {
+        /// The mask's width in px.
+        mask_width_px: u32,
+        /// The mask's height in px.
+        mask_height_px: u32,
+        /// The picture's width in px.
+        width_px: u32,
+        /// The picture's height in px.
+        height_px: u32,
+    },
+    /// OpenCV refused.
+    #[error("OpenCV could not {action}: {source}")]
+    OpenCv {
+        /// What was being done.
+        action: &'static str,
+        /// OpenCV's reason.
+        source: opencv::Error,
+    },
+}
+
+impl VisionError {
+    pub(super) fn opencv(action: &'static str) -> impl FnOnce(opencv::Error) -> Self {
+        move |source| VisionError::OpenCv { action, source }
+    }
+}

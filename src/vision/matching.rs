@@ -1,0 +1,169 @@
+//! Matching of descriptors: mutual best, ratio test (Lowe 2004), and a search radius where a prediction is given.
+
+use super::{Descriptor, Feature, MatcherConfig, VisionError};
+use nalgebra::Vector2;
+use opencv::core::{CV_32S, Mat, NORM_HAMMING, batch_distance, no_array};
+use opencv::prelude::*;
+
+/// Indices of the same surface point among the features of two pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct IndexMatch {
+    /// Index in the first picture.
+    pub from: usize,
+    /// Index in the second picture.
+    pub to: usize,
+    /// Hamming distance in bits.
+    pub distance_bits: u32,
+}
+
+/// Features of one picture with their descriptors.
+#[derive(Debug, Clone, Copy)]
+pub struct Described<'a> {
+    /// The features.
+    pub features: &'a [Feature],
+    /// One descriptor a feature.
+    pub descriptors: &'a [Option<Descriptor>],
+}
+
+/// Best and second best so far.
+#[derive(Clone, Copy)]
+struct Best {
+    index: usize,
+    best: u32,
+    second: u32,
+}
+
+impl Best {
+    const NONE: Best = Best { index: usize::MAX, best: u32::MAX, second: u32::MAX };
+
+    fn offer(&mut self, index: usize, distance: u32) {
+        if distance < self.best {
+            *self = Best { index, best: distance, second: self.best };
+        } else if distance < self.second {
+            self.second = distance;
+        }
+    }
+
+    fn passes(&self, config: &MatcherConfig) -> bool {
+        self.best <= config.max_distance_bits && f64::from(self.best) < config.max_ratio * f64::from(self.second)
+    }
+}
+
+/// Matches two pictures' features anywhere in the picture: each the other's best, both passing the ratio test. In order
+/// of the first picture's index.
+///
+/// # Errors
+/// OpenCV's refusal.
+pub fn match_features(
+    from: Described,
+    to: Described,
+    config: &MatcherConfig,
+) -> Result<Vec<IndexMatch>, VisionError> {
+    let present = |d: Described| -> Vec<usize> {
+        (0..d.descriptors.len()).filter(|i| d.descriptors[*i].is_some()).collect()
+    };
+    let (rows, columns) = (present(from), present(to));
+    if rows.is_empty() || columns.is_empty() {
+        return Ok(Vec::new());
+    }
+    let distances = all_distances(&packed(from, &rows), &packed(to, &columns))
+        .map_err(VisionError::opencv("compare descriptors"))?;
+    let distances = distances.data_typed::<i32>().map_err(VisionError::opencv("read distances"))?;
+    let mut best = BestOfBoth::new(from.features.len(), to.features.len());
+    for (row, values) in rows.iter().zip(distances.chunks_exact(columns.len())) {
+        for (column, value) in columns.iter().zip(values) {
+            best.offer(*row, *column, *value as u32);
+        }
+    }
+    Ok(best.mutual(config))
+}
+
+/// As [`match_features`], with candidates only within the search radius of where `predict` puts a pixel of the first
+/// picture; `None` from `predict` leaves the feature out.
+pub fn match_features_guided(
+    from: Described,
+    to: Described,
+    predict: &dyn Fn(&Vector2<f64>) -> Option<Vector2<f64>>,
+    config: &MatcherConfig,
+) -> Vec<IndexMatch> {
+    let index = CellIndex::new(to.features, config.guided_radius_px);
+    let mut best = BestOfBoth::new(from.features.len(), to.features.len());
+    for (row, feature) in from.features.iter().enumerate() {
+        let (Some(a), Some(predicted)) = (from.descriptors[row], predict(&feature.pixel_px)) else { continue };
+        for column in index.near(&predicted) {
+            let off = to.features[column].pixel_px - predicted;
+            if let Some(b) = to.descriptors[column].filter(|_| off.norm() <= config.guided_radius_px) {
+                best.offer(row, column, hamming(&a, &b));
+            }
+        }
+    }
+    best.mutual(config)
+}
+
+fn hamming(a: &Descriptor, b: &Descriptor) -> u32 {
+    a.iter().zip(b).map(|(x, y)| (x ^ y).count_ones()).sum()
+}
+
+fn packed(described: Described, chosen: &[usize]) -> Vec<u8> {
+    let words = chosen.iter().filter_map(|i| described.descriptors[*i]).flatten();
+    words.flat_map(u64::to_le_bytes).collect()
+}
+
+fn all_distances(from: &[u8], to: &[u8]) -> opencv::Result<Mat> {
+    let a = Mat::new_rows_cols_with_data((from.len() / 32) as i32, 32, from)?;
+    let b = Mat::new_rows_cols_with_data((to.len() / 32) as i32, 32, to)?;
+    let mut distances = Mat::default();
+    batch_distance(&a, &b, &mut distances, CV_32S, &mut no_array(), NORM_HAMMING as i32, 0, &no_array(), 0, false)?;
+    Ok(distances)
+}
+
+struct BestOfBoth {
+    rows: Vec<Best>,
+    columns: Vec<Best>,
+}
+
+impl BestOfBoth {
+    fn new(rows: usize, columns: usize) -> Self {
+        BestOfBoth { rows: vec![Best::NONE; rows], columns: vec![Best::NONE; columns] }
+    }
+
+    fn offer(&mut self, row: usize, column: usize, distance: u32) {
+        self.rows[row].offer(column, distance);
+        self.columns[column].offer(row, distance);
+    }
+
+    fn mutual(&self, config: &MatcherConfig) -> Vec<IndexMatch> {
+        let agree = |(from, best): (usize, &Best)| {
+            let back = self.columns.get(best.index)?;
+            let mutual = back.index == from && best.passes(config) && back.passes(config);
+            mutual.then_some(IndexMatch { from, to: best.index, distance_bits: best.best })
+        };
+        self.rows.iter().enumerate().filter_map(agree).collect()
+    }
+}
+
+/// Features by square cells of a side, so that the neighbours of a pixel lie in 3×3 cells.
+struct CellIndex {
+    side_px: f64,
+    cells: std::collections::HashMap<(i64, i64), Vec<usize>>,
+}
+
+impl CellIndex {
+    fn new(features: &[Feature], side_px: f64) -> Self {
+        let mut index = CellIndex { side_px, cells: std::collections::HashMap::new() };
+        for (i, feature) in features.iter().enumerate() {
+            index.cells.entry(index.cell(&feature.pixel_px)).or_default().push(i);
+        }
+        index
+    }
+
+    fn cell(&self, pixel_px: &Vector2<f64>) -> (i64, i64) {
+        ((pixel_px.x / self.side_px).floor() as i64, (pixel_px.y / self.side_px).floor() as i64)
+    }
+
+    fn near(&self, pixel_px: &Vector2<f64>) -> impl Iterator<Item = usize> + '_ {
+        let (column, row) = self.cell(pixel_px);
+        let around = (-1..=1).flat_map(move |j| (-1..=1).map(move |i| (column + i, row + j)));
+        around.filter_map(|cell| self.cells.get(&cell)).flatten().copied()
+    }
+}
