@@ -2,7 +2,7 @@
 
 use opnav::evaluation::Metrics;
 use opnav::pipeline::{
-    CameraSource, Estimator, FrontEndConfig, LandRequest, LandingConfig, Silent, SynthesizeRequest, TumbleRequest,
+    CameraSource, Estimator, FrontEndConfig, FrontEndMode, LandRequest, LandingConfig, Silent, SynthesizeRequest, TumbleRequest,
     TumblingConfig, evaluate_result, land, synthesize, tumble,
 };
 use std::path::{Path, PathBuf};
@@ -39,7 +39,7 @@ fn estimate_tumbling(images: &Path, out: &Path) {
         camera: CameraSource::Folder,
         frames: None,
         config: TumblingConfig { estimator: Estimator::Shooting, ..TumblingConfig::default() },
-        front_end: FrontEndConfig::fixed_center(),
+        front_end: FrontEndConfig { mode: FrontEndMode::FixedCenter, ..FrontEndConfig::default() },
     };
     tumble(&request, &Silent).expect("the motion is estimated");
 }

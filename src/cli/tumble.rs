@@ -3,7 +3,7 @@
 use super::arguments::{CameraArguments, frame_range};
 use super::progress::Terminal;
 use clap::ValueEnum;
-use opnav::pipeline::{Estimator, FrontEndConfig, PipelineError, TumbleRequest, TumblingConfig, tumble};
+use opnav::pipeline::{Estimator, FrontEndConfig, FrontEndMode, PipelineError, TumbleRequest, TumblingConfig, tumble};
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -29,6 +29,8 @@ pub struct Arguments {
 enum EstimatorName {
     /// The paper's extended Kalman filter, the baseline.
     Paper,
+    /// A fit of the first minute, then a cloned Kalman filter.
+    Realtime,
     /// Fit of the rotational dynamics to all pairs.
     Shooting,
 }
@@ -37,6 +39,7 @@ impl From<EstimatorName> for Estimator {
     fn from(name: EstimatorName) -> Self {
         match name {
             EstimatorName::Paper => Estimator::Paper,
+            EstimatorName::Realtime => Estimator::Realtime,
             EstimatorName::Shooting => Estimator::Shooting,
         }
     }
@@ -50,7 +53,7 @@ pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineErr
         camera: arguments.camera.source(),
         frames: arguments.frames.clone(),
         config: TumblingConfig { estimator: arguments.estimator.into(), ..TumblingConfig::default() },
-        front_end: FrontEndConfig::fixed_center(),
+        front_end: FrontEndConfig { mode: FrontEndMode::FixedCenter, ..FrontEndConfig::default() },
     };
     let summary = tumble(&request, terminal)?;
     summary.notes.iter().for_each(|note| terminal.say(note));

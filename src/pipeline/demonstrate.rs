@@ -8,7 +8,7 @@ use crate::dataset::{CameraSource, write_text};
 use crate::evaluation::Metrics;
 use crate::navigation::landing::LandingConfig;
 use crate::navigation::tumbling::{Estimator, TumblingConfig};
-use crate::vision::FrontEndConfig;
+use crate::vision::{FrontEndConfig, FrontEndMode};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -107,7 +107,7 @@ fn demonstrate_tumbling(
         camera: CameraSource::Folder,
         frames: None,
         config: TumblingConfig { estimator, ..TumblingConfig::default() },
-        front_end: FrontEndConfig::fixed_center(),
+        front_end: FrontEndConfig { mode: FrontEndMode::FixedCenter, ..FrontEndConfig::default() },
     };
     tumble(&request, progress)?;
     let metrics = evaluate_result(&request.out, images)?;

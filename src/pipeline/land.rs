@@ -6,8 +6,7 @@ use crate::dataset::{
     CameraSource, ImageSequence, StampedPose, read_designated, read_imu, read_initial_state, write_tum,
 };
 use crate::navigation::landing::{
-    LandingConfig, LandingEpoch, LandingInput, LandingResult, gyro_rotation, navigate, write_covariance_csv,
-    write_estimate_csv,
+    ImuRecord, LandingConfig, LandingEpoch, LandingInput, LandingResult, navigate, write_covariance_csv, write_estimate_csv,
 };
 use crate::vision::{FrontEnd, FrontEndConfig, TrackInputs};
 use std::path::{Path, PathBuf};
@@ -42,7 +41,12 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
     });
     let mut summary = Summary::new("landing", options);
     let lander_from_camera = sequence.sensor.spacecraft_from_camera;
-    let prior = |from_ns: i64, to_ns: i64| gyro_rotation(&imu, &lander_from_camera.rotation, from_ns, to_ns);
+    let record = ImuRecord { samples: &imu, noise: &imu_noise };
+    let prior = |from_ns: i64, to_ns: i64| {
+        let lander_from_from_lander_to = record.between(from_ns, to_ns).ok()?.before_from_after;
+        let mount = lander_from_camera.rotation;
+        Some(mount.inverse() * lander_from_from_lander_to.inverse() * mount)
+    };
     let inputs = TrackInputs {
         frames: 0..sequence.frames.len(),
         every: 1,

@@ -29,4 +29,4 @@ pub use crate::dataset::CameraSource;
 pub use crate::navigation::landing::{FilterKind, LandingConfig};
 pub use crate::navigation::landmark::Selector;
 pub use crate::navigation::tumbling::{Estimator, TumblingConfig};
-pub use crate::vision::FrontEndConfig;
+pub use crate::vision::{FrontEndConfig, FrontEndMode};

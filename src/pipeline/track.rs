@@ -3,7 +3,7 @@
 use super::{PipelineError, Progress, Summary};
 use crate::dataset::{CameraSource, DatasetError, ImageSequence, StampedPose, write_atomically, write_tum};
 use crate::vision::{
-    FrontEnd, FrontEndConfig, PairStatus, TrackInputs, draw_tracks, track_sequence, write_rotations, write_tracks,
+    FrontEnd, FrontEndConfig, PairStatus, TrackInputs, draw_tracks, track_sequence, write_relative_rotations, write_tracks,
 };
 use image::RgbImage;
 use nalgebra::{Isometry3, UnitQuaternion};
@@ -87,7 +87,7 @@ pub(super) fn run_front_end(
 /// Writes `tracks.csv`, `relative_rotations.csv` and `attitude_chain.tum`.
 pub(super) fn write_front_end(out: &Path, front_end: &FrontEnd) -> Result<(), PipelineError> {
     write_tracks(&out.join("tracks.csv"), &front_end.observations)?;
-    write_rotations(&out.join("relative_rotations.csv"), &front_end.rotations)?;
+    write_relative_rotations(&out.join("relative_rotations.csv"), &front_end.rotations)?;
     Ok(write_tum(&out.join("attitude_chain.tum"), &attitude_chain(front_end))?)
 }
 
