@@ -88,30 +88,37 @@ fn roll_pitch_yaw(site_from_lander: &UnitQuaternion<f64>) -> Vector3<f64> {
 }
 
 fn add_series(errors: &[LandingError], metrics: &mut Metrics) {
-    let groups: [(&str, &str, usize, fn(&LandingError) -> Vector3<f64>); 3] = [
-        ("position", "m", 0, |e| e.position_m),
-        ("velocity", "m/s", 6, |e| e.velocity_m_s),
-        ("attitude", "deg", 3, |e| e.roll_pitch_yaw_rad.map(f64::to_degrees)),
-    ];
-    for (group, unit, sigma_at, value) in groups {
-        let axes = if group == "attitude" { ["roll", "pitch", "yaw"] } else { ["x", "y", "z"] };
-        let scale = if unit == "deg" { 1f64.to_degrees() } else { 1.0 };
-        for (axis, axis_name) in axes.into_iter().enumerate() {
-            let sigma: Option<Vec<f64>> = errors.iter().map(|e| Some(e.sigma?[sigma_at + axis] * scale)).collect();
-            metrics.series.push(Series {
-                name: if group == "attitude" {
-                    format!("{axis_name}_error")
-                } else {
-                    format!("{group}_error_{axis_name}")
-                },
-                unit: unit.into(),
-                t_s: errors.iter().map(|e| e.t_s).collect(),
-                values: errors.iter().map(|e| value(e)[axis]).collect(),
-                sigma: sigma.unwrap_or_default(),
-                bound: None,
-            });
-        }
+    let axes = ["x", "y", "z"];
+    for axis in 0..3 {
+        let name = format!("position_error_{}", axes[axis]);
+        add_curve(errors, (&name, "m", 1.0), (|e, k| e.position_m[k], axis), metrics);
     }
+    for axis in 0..3 {
+        let name = format!("velocity_error_{}", axes[axis]);
+        add_curve(errors, (&name, "m/s", 1.0), (|e, k| e.velocity_m_s[k - 6], 6 + axis), metrics);
+    }
+    for (axis, name) in ["roll_error", "pitch_error", "yaw_error"].into_iter().enumerate() {
+        let degrees = (name, "deg", 1f64.to_degrees());
+        add_curve(errors, degrees, (|e, k| e.roll_pitch_yaw_rad[k - 3], 3 + axis), metrics);
+    }
+}
+
+/// One curve: its name, unit and scale to that unit, and the component `k` of the file's 1σ that goes with it.
+fn add_curve(
+    errors: &[LandingError],
+    (name, unit, scale): (&str, &str, f64),
+    (component, k): (fn(&LandingError, usize) -> f64, usize),
+    metrics: &mut Metrics,
+) {
+    let sigma: Option<Vec<f64>> = errors.iter().map(|e| Some(e.sigma?[k] * scale)).collect();
+    metrics.series.push(Series {
+        name: name.into(),
+        unit: unit.into(),
+        t_s: errors.iter().map(|e| e.t_s).collect(),
+        values: errors.iter().map(|e| component(e, k) * scale).collect(),
+        sigma: sigma.unwrap_or_default(),
+        bound: None,
+    });
 }
 
 fn add_consistency(errors: &[LandingError], metrics: &mut Metrics) {

@@ -121,20 +121,18 @@ fn tumbling_error(truth: &AlignedTruth, epoch: &TumblingEpoch, start_of_truth_ns
 }
 
 fn add_series(errors: &[TumblingError], metrics: &mut Metrics) {
-    let groups: [(&str, &str, usize, fn(&TumblingError) -> Vector3<f64>); 2] =
-        [("attitude", "deg", 0, |e| e.attitude_rad), ("rate", "deg/s", 3, |e| e.rate_rad_s)];
-    for (group, unit, sigma_at, value) in groups {
-        for (axis, axis_name) in ["x", "y", "z"].into_iter().enumerate() {
-            let sigma: Option<Vec<f64>> = errors.iter().map(|e| Some(e.sigma?[sigma_at + axis].to_degrees())).collect();
-            metrics.series.push(Series {
-                name: format!("{group}_error_{axis_name}"),
-                unit: unit.into(),
-                t_s: errors.iter().map(|e| e.t_s).collect(),
-                values: errors.iter().map(|e| value(e)[axis].to_degrees()).collect(),
-                sigma: sigma.unwrap_or_default(),
-                bound: None,
-            });
-        }
+    for axis in 0..6 {
+        let (group, unit) = if axis < 3 { ("attitude", "deg") } else { ("rate", "deg/s") };
+        let value = |e: &TumblingError| if axis < 3 { e.attitude_rad[axis] } else { e.rate_rad_s[axis - 3] };
+        let sigma: Option<Vec<f64>> = errors.iter().map(|e| Some(e.sigma?[axis].to_degrees())).collect();
+        metrics.series.push(Series {
+            name: format!("{group}_error_{}", ["x", "y", "z"][axis % 3]),
+            unit: unit.into(),
+            t_s: errors.iter().map(|e| e.t_s).collect(),
+            values: errors.iter().map(|e| value(e).to_degrees()).collect(),
+            sigma: sigma.unwrap_or_default(),
+            bound: None,
+        });
     }
 }
 
