@@ -2,6 +2,8 @@
 
 #[path = "landing/descent.rs"]
 mod descent;
+#[path = "landing/flight.rs"]
+mod flight;
 
 use descent::{Case, END_S, Epoch, Mistake, REFERENCE, fly};
 use opnav::navigation::landing::FilterKind;
@@ -27,7 +29,7 @@ fn print(name: &str, runs: &[Vec<Epoch>]) {
     for k in [0, 1, 2, 5, 10, 20, 30, 60, 90, 120, 150, 170, 182, 190, 198] {
         let m =
             |f: &dyn Fn(&Epoch) -> f64| runs.iter().map(|r| f(&r[k.min(r.len() - 1)])).sum::<f64>() / runs.len() as f64;
-        print!("{k}: {:.2} {:.2}; ", m(&|e| e.nees()), m(&|e| e.own));
+        print!("{k}: {:.2} {:.2}; ", m(&|e| e.nees()), 0.0);
     }
     println!();
     let mean = nees.iter().sum::<f64>() / nees.len() as f64;
@@ -61,4 +63,82 @@ fn table() {
         print(&format!("hybrid {selector:?}"), &fly_all(&Case { selector, ..REFERENCE }, runs));
     }
     let _ = END_S;
+}
+
+#[test]
+#[ignore]
+fn sweep() {
+    use flight::{FLIGHT, Flight};
+    use opnav::navigation::landing::{LandingConfig, navigate};
+    let runs: u64 = std::env::var("RUNS").map_or(20, |r| r.parse().unwrap());
+    for relief in [1.0] {
+        let inputs: Vec<_> = (0..runs).map(|run| flight::fly(&Flight { relief, ..FLIGHT }, run)).collect();
+        for selector in [Selector::None, Selector::DepthError] {
+            for landmarks in [1] {
+                for reselect_after in [3, 8] {
+                    let config = LandingConfig {
+                        selector,
+                        unknown_landmarks: landmarks,
+                        reselect_after,
+                        sigma_floor_px: 0.1,
+                        ..LandingConfig::default()
+                    };
+                    let all: Vec<_> = inputs.par_iter().map(|i| navigate(i, &config, &|_| ())).collect();
+                    let mut rows = vec![];
+                    let mut gated = 0;
+                    let mut used = 0;
+                    for r in &all {
+                        let r = r.as_ref().unwrap();
+                        gated += r.gated;
+                        used += r.used;
+                        rows.push(
+                            r.epochs
+                                .iter()
+                                .map(|e| {
+                                    let t = flight::truth_at_ns(e.t_ns);
+                                    Epoch {
+                                        error: descent::pose_error(
+                                            &t,
+                                            &e.site_from_lander,
+                                            &e.lander_velocity_in_site_m_s,
+                                        ),
+                                        covariance: e.covariance,
+                                    }
+                                })
+                                .collect::<Vec<_>>(),
+                        );
+                    }
+                    let at = |k: usize| {
+                        let es: Vec<&Epoch> = rows.iter().map(|r| &r[k]).collect();
+                        let n = es.iter().map(|e| e.nees()).sum::<f64>() / es.len() as f64;
+                        let pz = (es.iter().map(|e| e.covariance[(2, 2)]).sum::<f64>() / es.len() as f64).sqrt();
+                        let px = (es.iter().map(|e| e.covariance[(0, 0)] + e.covariance[(1, 1)]).sum::<f64>()
+                            / es.len() as f64)
+                            .sqrt();
+                        let h = (rms(&es, 0).powi(2) + rms(&es, 1).powi(2)).sqrt();
+                        format!(
+                            "[h {h:.3} ({px:.3}) z {:.3} ({pz:.3}) v {:.3} {:.3} tilt {:.4} nees {n:.2}]",
+                            rms(&es, 2),
+                            rms(&es, 3).hypot(rms(&es, 4)),
+                            rms(&es, 5),
+                            rms(&es, 6).hypot(rms(&es, 7)).to_degrees()
+                        )
+                    };
+                    println!(
+                        "relief {relief} {selector:?} {landmarks} x {reselect_after}: used {used} gated {gated} f20 {} f40 {} f59 {} end {}",
+                        at(20),
+                        at(40),
+                        at(59),
+                        at(rows[0].len() - 1)
+                    );
+                    if selector == Selector::None {
+                        break;
+                    }
+                }
+                if selector == Selector::None {
+                    break;
+                }
+            }
+        }
+    }
 }
