@@ -25,10 +25,20 @@ pub struct Flight {
     pub start: f64,
     pub tracks: usize,
     pub longest_track: u64,
+    /// 1σ of the designated pixel in the first frame: what track 0 follows is off by as much.
+    pub designated_sigma_px: f64,
 }
 
-pub const FLIGHT: Flight =
-    Flight { frames: 60, sigma_px: 0.2, relief: 1.0, imu_noise: 1.0, start: 1.0, tracks: 80, longest_track: 12 };
+pub const FLIGHT: Flight = Flight {
+    frames: 60,
+    sigma_px: 0.2,
+    relief: 1.0,
+    imu_noise: 1.0,
+    start: 1.0,
+    tracks: 80,
+    longest_track: 12,
+    designated_sigma_px: 0.0,
+};
 
 const RATE_HZ: i64 = 100;
 const STEP_NS: i64 = 1_000_000_000 / RATE_HZ;
@@ -105,7 +115,7 @@ pub fn fly(flight: &Flight, run: u64) -> LandingInput {
     let (camera, lander_from_camera) = camera();
     let frame_times_ns = frame_times_ns(flight.frames);
     let mut observations = Vec::new();
-    let mut tracks = vec![Track { id: 0, point_m: Vector3::zeros(), left: u64::MAX }];
+    let mut tracks = vec![Track { id: 0, point_m: designated_point_m(flight, run), left: u64::MAX }];
     let mut next_id = 1;
     for t_ns in &frame_times_ns {
         let site_from_camera = site_from_lander(&truth_at_ns(*t_ns)) * lander_from_camera;
@@ -131,6 +141,17 @@ pub fn fly(flight: &Flight, run: u64) -> LandingInput {
     }
     let initial = scaled(flight, &mut random);
     LandingInput { imu, imu_noise, camera, lander_from_camera, observations, frame_times_ns, initial }
+}
+
+/// The surface point under the designated pixel.
+fn designated_point_m(flight: &Flight, run: u64) -> Vector3<f64> {
+    let (camera, lander_from_camera) = camera();
+    let site_from_camera = site_from_lander(&truth(0.0)) * lander_from_camera;
+    let site = site_from_camera.inverse_transform_point(&Vector3::zeros().into());
+    let exact = camera.project(&site.coords).expect("the site is in the picture");
+    let noise = normal3(&mut random_stream(512, "designated", run), flight.designated_sigma_px);
+    let bearing = camera.unproject(&(exact + noise.xy())).expect("a pinhole");
+    on_ground(flight, &site_from_camera, &bearing).expect("it looks down")
 }
 
 fn scaled(flight: &Flight, random: &mut ChaCha8Rng) -> opnav::dataset::InitialState {
