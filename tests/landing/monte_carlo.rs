@@ -129,3 +129,13 @@ fn uncorrelated_landmark_prior_is_inconsistent() {
     let case = Case { mistake: Mistake::UncorrelatedLandmark, ..REFERENCE };
     assert!(overall_nees(&fly_all(&case, 30)) > 10.0);
 }
+#[test]
+fn debug_bound() {
+    let runs = fly_all(&REFERENCE, 300);
+    for second in [60, 120, 182, 198] {
+        for c in 0..9 {
+            print!("{second} {c}: rms {:.4} P {:.4}; ", rms(&runs, second, c), believed(&runs, second, c));
+        }
+        println!();
+    }
+}

@@ -97,14 +97,16 @@ fn every_selector_lands() {
 #[test]
 fn wrong_tracks_are_gated() {
     let mut input = fly(&FLIGHT, 1);
-    let mut wrong = 0;
+    let (mut wrong, mut wrong_designated) = (0, 0);
     for (k, o) in input.observations.iter_mut().enumerate().skip(200) {
-        if k % 8 == 0 || (o.track_id == 0 && k % 5 == 0) {
+        // 389 is prime, so that neither one track nor one frame takes more than its share.
+        if (k * 389 + k / 7) % 8 == 0 {
             o.pixel_px += Vector2::new(if k % 3 == 0 { 25.0 } else { -20.0 }, 15.0);
             wrong += 1;
+            wrong_designated += usize::from(o.track_id == 0);
         }
     }
-    assert!(wrong > 500);
+    assert!(wrong > 500 && wrong_designated > 3, "{wrong} {wrong_designated}");
     let result = land(&input, &LandingConfig { unknown_landmarks: 3, ..LandingConfig::default() });
     assert!(result.gated >= 10, "{} gated", result.gated);
     assert!(result.epochs.iter().any(|e| !e.known_seen && e.gated > 0));
@@ -112,7 +114,7 @@ fn wrong_tracks_are_gated() {
     assert!(e.fixed_rows::<2>(0).norm() < 0.3 && e[2].abs() < 5.0, "{e}");
 }
 
-/// Ten frames without anything: the filter coasts and says so, its covariance never shrinks in volume, then it recovers.
+/// Ten frames without anything: the filter coasts and says so, its covariance does not shrink, then it recovers.
 #[test]
 fn missing_images_are_coasted_over() {
     let mut input = fly(&FLIGHT, 2);
@@ -121,10 +123,11 @@ fn missing_images_are_coasted_over() {
     let result = land(&input, &LandingConfig::default());
     assert_eq!(result.coasted[0], (from_ns, input.frame_times_ns[29]));
     assert_eq!(result.coasted.len(), 2, "{:?}", result.coasted);
-    let volume = |k: usize| result.epochs[k].covariance.fixed_view::<6, 6>(3, 3).determinant();
+    let attitude = |k: usize| result.epochs[k].covariance.fixed_view::<3, 3>(6, 6).into_owned();
     for k in 20..30 {
         assert!(!result.epochs[k].known_seen && result.epochs[k].innovation_dof == 0);
-        assert!(volume(k) >= volume(k - 1) * (1.0 - 1e-6), "frame {k}");
+        let growth = (attitude(k) - attitude(k - 1)).symmetric_eigenvalues().min();
+        assert!(growth >= 0.0, "frame {k}: {growth}");
     }
     let e = error(&last_frame(&input, &result));
     assert!(e.fixed_rows::<2>(0).norm() < 0.2 && e[2].abs() < 3.0, "{e}");
@@ -223,7 +226,7 @@ fn wrong_input_is_named() {
     assert!(matches!(failure(&|i| i.initial.t_ns = 1), LandingError::LateStart { .. }));
     assert!(matches!(failure(&|i| i.initial.sigma_position_m = -1.0), LandingError::Value { .. }));
     assert!(matches!(failure(&|i| i.camera.focal_px.x = 0.0), LandingError::Camera(_)));
-    assert!(matches!(failure(&|i| drop(i.frame_times_ns.remove(2))), LandingError::NoFrame { .. }));
+    assert!(matches!(failure(&|i| i.frame_times_ns.truncate(4)), LandingError::NoFrame { .. }));
     let text = failure(&|i| i.initial.t_ns = 1).to_string();
     assert!(text.contains("start at a later frame"), "{text}");
 }

@@ -5,7 +5,7 @@
 
 use super::measurement::BearingObservation;
 use super::state::{LANDMARKS, UnknownLandmark};
-use super::{CameraMount, DescentEstimate, LandingConfig};
+use super::{CameraMount, DescentEstimate, FilterKind, LandingConfig};
 use crate::geometry::so3::tangent_basis;
 use crate::vision::TrackObservation;
 use nalgebra::{Matrix3, Vector3};
@@ -26,7 +26,7 @@ pub(super) fn with_designated_errors(
     let index = estimate.state.landmark_of(TrackObservation::DESIGNATED);
     let sigma_px = if index.is_some() { config.designated_drift_px } else { config.designated_sigma_px };
     let sigma_rad = sigma_px / mount.camera.mean_focal_px();
-    let wander = on_ground(&estimate, bearing, mount, config) * sigma_rad.powi(2);
+    let wander = on_ground(&estimate, bearing, mount, config, sigma_rad);
     let mut after = if index.is_some() { estimate } else { with_exact_point(estimate) };
     let start = LANDMARKS + 3 * index.unwrap_or(after.state.landmarks.len() - 1);
     let mut block = after.covariance.fixed_view_mut::<3, 3>(start, start);
@@ -34,17 +34,26 @@ pub(super) fn with_designated_errors(
     after
 }
 
-/// Covariance (m²) on the ground, in the filter's coordinates, of 1 rad across the bearing; 0 if it meets no ground.
+/// Covariance (m²), in the filter's coordinates, of the ground point that a bearing meets where it is off by
+/// `sigma_rad`; its height follows the ground's slope. 0 if it meets no ground.
 fn on_ground(
     estimate: &DescentEstimate,
     bearing: &BearingObservation,
     mount: &CameraMount,
     config: &LandingConfig,
+    sigma_rad: f64,
 ) -> Matrix3<f64> {
     let camera_in_lander_m = mount.camera_in_lander_m();
-    let spot = config.filter.landmark_on_ground(&estimate.state, bearing, &camera_in_lander_m, 0.0);
-    let across = spot.map(|s| s.by_bearing * tangent_basis(&bearing.direction_in_lander));
-    across.map_or(Matrix3::zeros(), |a| a * a.transpose())
+    let Some(spot) = config.filter.landmark_on_ground(&estimate.state, bearing, &camera_in_lander_m, 0.0) else {
+        return Matrix3::zeros();
+    };
+    let across = spot.by_bearing * tangent_basis(&bearing.direction_in_lander) * sigma_rad;
+    let level = across * across.transpose();
+    let up = match config.filter {
+        FilterKind::Hybrid => estimate.state.lander_from_site * Vector3::z(),
+        FilterKind::Standard => Vector3::z(),
+    };
+    level + up * up.transpose() * (config.ground.sigma_slope.powi(2) * level.trace())
 }
 
 /// The origin as a landmark of the state, its covariance still 0.

@@ -1,7 +1,8 @@
 //! What to do when the filter and the known landmark contradict each other for long.
 
-use super::DescentEstimate;
 use super::correct::Outcome;
+use super::state::{ATTITUDE, LANDMARKS};
+use super::{DescentEstimate, FilterKind};
 use crate::vision::TrackObservation;
 
 /// Contradictions in a row after which the filter, not the measurement, is taken to be wrong.
@@ -32,10 +33,17 @@ impl Contradiction {
     }
 
     /// The estimate, after three contradictions in a row with its covariance inflated so far that the last one would be
-    /// an ordinary innovation.
-    pub fn resolved(self, mut estimate: DescentEstimate) -> DescentEstimate {
-        if self.images >= PATIENCE {
-            estimate.covariance *= (0.5 * self.normalized_innovation_squared).clamp(1.0, LARGEST_INFLATION);
+    /// an ordinary innovation. What images can never restore is left alone: yaw, or in the standard coordinates, which
+    /// do not separate it, the whole attitude.
+    pub fn resolved(self, mut estimate: DescentEstimate, kind: FilterKind) -> DescentEstimate {
+        if self.images < PATIENCE {
+            return estimate;
+        }
+        let factor = (0.5 * self.normalized_innovation_squared).clamp(1.0, LARGEST_INFLATION).sqrt();
+        let kept = if kind == FilterKind::Hybrid { ATTITUDE + 2..LANDMARKS } else { ATTITUDE..LANDMARKS };
+        for k in (0..estimate.covariance.nrows()).filter(|k| !kept.contains(k)) {
+            estimate.covariance.row_mut(k).scale_mut(factor);
+            estimate.covariance.column_mut(k).scale_mut(factor);
         }
         estimate
     }

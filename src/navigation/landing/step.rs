@@ -67,7 +67,8 @@ pub fn step(
 ) -> Option<(Navigator, StepReport)> {
     let predicted = predict(&before.estimate, &frame.increment, &config.gravity_in_site_m_s2(), config.filter);
     let bearings = usable(&predicted, &frame.bearings, config);
-    let prior = with_designated_errors(before.contradiction.resolved(predicted), bearings, mount, config);
+    let prior =
+        with_designated_errors(before.contradiction.resolved(predicted, config.filter), bearings, mount, config);
     let corrected = correct(&prior, bearings, &correction_model(before, mount, config))?;
     let report = StepReport {
         outcomes: corrected.outcomes,
