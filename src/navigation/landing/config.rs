@@ -44,6 +44,10 @@ pub struct LandingConfig {
     pub edge_margin_px: f64,
     /// What is known of the ground's height.
     pub ground: GroundPrior,
+    /// 1σ of the designated point's pixel in the first image, px (default 0: it is the site's origin exactly).
+    pub designated_sigma_px: f64,
+    /// 1σ by which the tracker drifts off the designated point an image, px (default 0).
+    pub designated_drift_px: f64,
     /// Seed of the random selector (default 0).
     pub seed: u64,
 }
@@ -62,6 +66,8 @@ impl Default for LandingConfig {
             first_iterations: 6,
             edge_margin_px: 4.0,
             ground: GroundPrior::default(),
+            designated_sigma_px: 0.0,
+            designated_drift_px: 0.0,
             seed: 0,
         }
     }
@@ -89,6 +95,8 @@ impl LandingConfig {
             ("gravity_m_s2", self.gravity_m_s2, self.gravity_m_s2 >= 0.0, "give it as a positive number"),
             ("minimum_image_height_m", self.minimum_image_height_m, self.minimum_image_height_m > 0.0, "use 1 or more"),
             ("sigma_floor_px", self.sigma_floor_px, self.sigma_floor_px > 0.0, "use 0.1 or so"),
+            ("designated_sigma_px", self.designated_sigma_px, self.designated_sigma_px >= 0.0, "use 0 or more"),
+            ("designated_drift_px", self.designated_drift_px, self.designated_drift_px >= 0.0, "use 0 or more"),
             ("gate_confidence", self.gate_confidence, open_unit(self.gate_confidence), "use 0.9999 or so, below 1"),
             ("edge_margin_px", self.edge_margin_px, self.edge_margin_px >= 0.0, "use 0 or more"),
             ("ground.sigma_height_m", g.sigma_height_m, g.sigma_height_m >= g.sigma_floor_m, "use 30 or so"),

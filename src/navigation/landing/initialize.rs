@@ -75,10 +75,13 @@ fn augmented(
 ) -> DMatrix<f64> {
     let n = covariance.nrows();
     let across = new.by_bearing * tangent_basis(&bearing.direction_in_lander);
-    let height = new.by_height * ground.sigma_at_m(&new.position_in_site_m);
-    let own = across * bearing.covariance_rad2 * across.transpose() + height * height.transpose();
     let cross = &new.by_state * covariance;
     let corner = &cross * new.by_state.transpose();
+    // The ground point lies on the plane, so that this is the variance of its horizontal position.
+    let variance_m2 = corner.trace();
+    let distance_m = (new.position_in_site_m.xy().norm_squared() + variance_m2).sqrt();
+    let height = new.by_height * ground.sigma_at_distance_m(distance_m);
+    let own = across * bearing.covariance_rad2 * across.transpose() + height * height.transpose();
     let mut all = covariance.clone().resize(n + 3, n + 3, 0.0);
     all.view_mut((n, 0), (3, n)).copy_from(&cross);
     all.view_mut((0, n), (n, 3)).copy_from(&cross.transpose());

@@ -3,6 +3,7 @@
 use super::imu::ImuRecord;
 use super::initialize::initial_estimate;
 use super::predict::predict;
+use super::recovery::Contradiction;
 use super::step::{FrameInput, Navigator, StepReport, step};
 use super::{LandingConfig, LandingEpoch, LandingError, LandingInput, LandingResult};
 use crate::vision::TrackObservation;
@@ -28,6 +29,7 @@ pub fn navigate(
     let mut navigator = Navigator {
         estimate: initial_estimate(&input.initial, config.filter),
         corrected: false,
+        contradiction: Contradiction::default(),
         spent_tracks: BTreeSet::new(),
         images: 0,
     };
@@ -76,7 +78,8 @@ fn at_time(observations: &[TrackObservation], t_ns: i64) -> &[TrackObservation] 
 
 fn epoch(t_ns: i64, navigator: &Navigator, report: &StepReport, config: &LandingConfig) -> LandingEpoch {
     let state = &navigator.estimate.state;
-    let unknown_tracks: Vec<u64> = state.landmarks.iter().map(|l| l.track_id).collect();
+    let unknown_tracks: Vec<u64> =
+        state.landmarks.iter().map(|l| l.track_id).filter(|id| *id != TrackObservation::DESIGNATED).collect();
     LandingEpoch {
         t_ns,
         site_from_lander: state.site_from_lander(),

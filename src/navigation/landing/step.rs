@@ -2,10 +2,12 @@
 
 use super::candidates::{LookAhead, survives, viewpoint};
 use super::correct::{CorrectionModel, Outcome, correct};
+use super::designated::with_designated_errors;
 use super::imu::ImuIncrement;
 use super::initialize::{InitializationModel, with_landmark, without_landmark};
 use super::measurement::{BearingObservation, CameraMount};
 use super::predict::predict;
+use super::recovery::Contradiction;
 use super::{DescentEstimate, LandingConfig};
 use crate::navigation::landmark::{Candidate, Viewpoint, choose};
 use crate::stats::random_stream;
@@ -21,6 +23,8 @@ pub struct Navigator {
     pub estimate: DescentEstimate,
     /// Whether an image has corrected it yet.
     pub corrected: bool,
+    /// Contradictions with the known landmark.
+    pub contradiction: Contradiction,
     /// Tracks that have been landmarks before: their ground height must not be counted twice.
     pub spent_tracks: BTreeSet<u64>,
     /// Number of images so far.
@@ -63,13 +67,16 @@ pub fn step(
 ) -> Option<(Navigator, StepReport)> {
     let predicted = predict(&before.estimate, &frame.increment, &config.gravity_in_site_m_s2(), config.filter);
     let bearings = usable(&predicted, &frame.bearings, config);
-    let corrected = correct(&predicted, bearings, &correction_model(before, mount, config))?;
+    let prior =
+        with_designated_errors(before.contradiction.resolved(predicted, config.filter), bearings, mount, config);
+    let corrected = correct(&prior, bearings, &correction_model(before, mount, config))?;
     let report = StepReport {
         outcomes: corrected.outcomes,
         normalized_innovation_squared: corrected.normalized_innovation_squared,
     };
     let mut after = Navigator { estimate: corrected.estimate, images: before.images + 1, ..before.clone() };
     after.corrected |= report.used() > 0;
+    after.contradiction = before.contradiction.after(&report.outcomes);
     if after.corrected && !bearings.is_empty() {
         after = without_lost(&after, bearings);
         after = with_chosen(&after, bearings, &Selection::new(&after, frame, mount, config));
@@ -101,7 +108,8 @@ fn without_lost(navigator: &Navigator, bearings: &[BearingObservation]) -> Navig
     for index in (0..after.estimate.state.landmarks.len()).rev() {
         let landmark = after.estimate.state.landmarks[index];
         let is_seen = bearings.iter().any(|b| b.track_id == landmark.track_id);
-        if !is_seen || landmark.gated >= 2 {
+        let is_unknown = landmark.track_id != TrackObservation::DESIGNATED;
+        if is_unknown && (!is_seen || landmark.gated >= 2) {
             after.estimate = without_landmark(&after.estimate, index);
         }
     }

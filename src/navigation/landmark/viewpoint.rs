@@ -32,7 +32,12 @@ impl Default for GroundPrior {
 impl GroundPrior {
     /// 1σ of the ground's height (m) at a point of the site frame.
     pub fn sigma_at_m(&self, point_in_site_m: &Vector3<f64>) -> f64 {
-        (self.sigma_slope * point_in_site_m.xy().norm()).clamp(self.sigma_floor_m, self.sigma_height_m)
+        self.sigma_at_distance_m(point_in_site_m.xy().norm())
+    }
+
+    /// 1σ of the ground's height (m) at a horizontal distance (m) from the site.
+    pub fn sigma_at_distance_m(&self, distance_m: f64) -> f64 {
+        (self.sigma_slope * distance_m).clamp(self.sigma_floor_m, self.sigma_height_m)
     }
 }
 
