@@ -184,19 +184,46 @@ fn first_solution(
     relative_rotation(pixels.view(), job.camera(), &hints, &job.config.rotation)
 }
 
-/// Pairs with two rival solutions are solved again with the ground's normal as the pair before found it.
+/// Pairs with two rival solutions are solved again with the ground's normal as their neighbours found it: first as the
+/// pair before did, then, for those that come before the first clear one, as the pair after did.
 fn settle_rivals(job: &Job, chain: &mut Chain) -> Result<Center, VisionError> {
+    let again = |pair: &mut Pair, normal: Unit<Vector3<f64>>| -> Result<(), VisionError> {
+        let hints = PairHints { camera_to_from_camera_from: None, normal_in_from: Some(normal) };
+        pair.solution = relative_rotation(pair.pixels.view(), job.camera(), &hints, &job.config.rotation)?;
+        Ok(())
+    };
+    let open = |pair: &Pair| pair.solution.status == PairStatus::Degenerate && job.prior.is_none();
     let mut normal: Option<Unit<Vector3<f64>>> = None;
     for pair in &mut chain.pairs {
-        if pair.solution.status == PairStatus::Degenerate && normal.is_some() {
-            let hints = PairHints { camera_to_from_camera_from: None, normal_in_from: normal };
-            pair.solution = relative_rotation(pair.pixels.view(), job.camera(), &hints, &job.config.rotation)?;
+        if let Some(known) = normal.filter(|_| open(pair)) {
+            again(pair, known)?;
         }
-        let known = pair.solution.status == PairStatus::Ok;
-        let here = pair.solution.normal_in_from.or(normal).filter(|_| known);
+        let solved = pair.solution.status == PairStatus::Ok;
+        let here = pair.solution.normal_in_from.or(normal).filter(|_| solved);
         normal = here.map(|n| pair.solution.camera_to_from_camera_from * n);
     }
+    let mut normal_after: Option<Unit<Vector3<f64>>> = None;
+    for pair in chain.pairs.iter_mut().rev() {
+        if let Some(known) = normal_after.filter(|_| open(pair)) {
+            // The normal is wanted in the first camera: the least rotation that the matches allow is near enough.
+            let turn = least_turn(&pair.pixels, job.camera());
+            again(pair, turn.inverse() * known)?;
+        }
+        let solved = pair.solution.status == PairStatus::Ok;
+        normal_after = pair.solution.normal_in_from.filter(|_| solved);
+    }
     Ok(None)
+}
+
+/// The rotation that best carries all matched bearings over, translation ignored (Wahba's problem).
+fn least_turn(pixels: &PairPixels, camera: &Camera) -> UnitQuaternion<f64> {
+    let mut sum = nalgebra::Matrix3::zeros();
+    for (from, to) in pixels.pair.from_px.iter().zip(&pixels.pair.to_px) {
+        if let (Some(a), Some(b)) = (camera.unproject(from), camera.unproject(to)) {
+            sum += b.into_inner() * a.transpose();
+        }
+    }
+    UnitQuaternion::from_matrix(&sum)
 }
 
 fn solve_about_center(job: &Job, chain: &mut Chain) -> Center {
