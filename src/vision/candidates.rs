@@ -160,6 +160,37 @@ impl Fits {
         generals.chain(planes).chain(self.turn.iter().cloned().map(Candidate::Turn))
     }
 
+    /// Which of rival planes the relief favours: each is a start of general motion, and the fits must differ clearly, or
+    /// all end at the same rotation. `None` where relief does not tell.
+    pub(super) fn favoured_by_relief(&self, rivals: &[Candidate], sights: &[Sight], widest: f64) -> Option<usize> {
+        const CLEAR_CHI2: f64 = 25.0;
+        let ends: Vec<PairFit<5, General>> = rivals
+            .iter()
+            .map(|c| c.direction().map(|direction| fit(General { rotation: c.rotation(), direction }, sights, widest)))
+            .collect::<Option<_>>()?;
+        let scale = ends.iter().map(|e| e.scale).fold(f64::INFINITY, f64::min);
+        let misfit = |e: &PairFit<5, General>| {
+            2.0 * cost::<5, _>(&e.model, sights, Loss::Truncated(3.0 * scale)) / scale.powi(2)
+        };
+        let apart = |a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>| so3::log(&(a * b.inverse())).norm();
+        let best = (0..ends.len()).min_by(|a, b| misfit(&ends[*a]).total_cmp(&misfit(&ends[*b])))?;
+        let end = ends[best].model.rotation;
+        let nearest = |target: &UnitQuaternion<f64>| {
+            (0..rivals.len()).min_by(|a, b| {
+                apart(&rivals[*a].rotation(), target).total_cmp(&apart(&rivals[*b].rotation(), target))
+            })
+        };
+        let chosen = nearest(&end)?;
+        let separation = (0..rivals.len())
+            .filter(|i| *i != chosen)
+            .map(|i| apart(&rivals[i].rotation(), &rivals[chosen].rotation()))
+            .fold(f64::INFINITY, f64::min);
+        let clear = ends.iter().all(|e| {
+            apart(&e.model.rotation, &end) < 0.1 * separation || misfit(e) > misfit(&ends[best]) + CLEAR_CHI2
+        });
+        (clear && apart(&rivals[chosen].rotation(), &end) < 0.35 * separation).then_some(chosen)
+    }
+
     /// Motions of the winner's kind with another rotation that explain the matches as well as it does.
     pub(super) fn rivals(&self, winner: &Candidate, sights: &[Sight], config: &RotationConfig) -> Vec<Candidate> {
         const CLOSE_CHI2: f64 = 9.0;

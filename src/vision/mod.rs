@@ -8,23 +8,40 @@
 #[cfg(feature = "vision")]
 mod candidates;
 #[cfg(feature = "vision")]
+mod center_start;
+#[cfg(feature = "vision")]
 mod config;
 #[cfg(feature = "vision")]
 mod descriptor;
+#[cfg(feature = "vision")]
+mod designated;
 #[cfg(feature = "vision")]
 mod error;
 #[cfg(feature = "vision")]
 mod evenly;
 #[cfg(feature = "vision")]
+mod fixed_center;
+#[cfg(feature = "vision")]
+mod frame_features;
+#[cfg(feature = "vision")]
+mod front_end;
+#[cfg(feature = "vision")]
 mod harris;
+#[cfg(feature = "vision")]
+mod keyframes;
+#[cfg(feature = "vision")]
+mod local_affine;
 #[cfg(feature = "vision")]
 mod matching;
 #[cfg(feature = "vision")]
 mod opencv_bridge;
+mod overlay;
 #[cfg(feature = "vision")]
 mod pair_fit;
 #[cfg(feature = "vision")]
 mod pair_models;
+#[cfg(feature = "vision")]
+mod patch;
 #[cfg(feature = "vision")]
 mod plausible;
 #[cfg(feature = "vision")]
@@ -32,26 +49,33 @@ mod relative_rotation;
 mod result;
 mod rotations_file;
 #[cfg(feature = "vision")]
+mod sequence;
+#[cfg(feature = "vision")]
 mod sight;
+#[cfg(feature = "vision")]
+mod silhouette;
 mod text_table;
+#[cfg(feature = "vision")]
+mod tracks;
 mod tracks_file;
 #[cfg(feature = "vision")]
 mod usac;
 
-#[cfg(feature = "vision")]
-pub use config::{
-    DetectorConfig, FixedCenterConfig, FrontEndConfig, FrontEndMode, MatcherConfig, RotationConfig,
-};
-#[cfg(feature = "vision")]
-pub use descriptor::{Descriptor, Orientation, describe};
-#[cfg(feature = "vision")]
-pub use error::VisionError;
-#[cfg(feature = "vision")]
-pub use harris::{Feature, detect_harris, noise_sigma_dn};
-#[cfg(feature = "vision")]
-pub use matching::{Described, IndexMatch, match_features, match_features_guided};
-#[cfg(feature = "vision")]
-pub use relative_rotation::{PairHints, PairSolution, PixelMatches, relative_rotation};
+pub use overlay::{contact_sheet, draw_tracks};
 pub use result::{MatchedPair, PairStatus, RelativeRotation, RotationModel, TrackObservation};
 pub use rotations_file::{read_relative_rotations, write_relative_rotations};
 pub use tracks_file::{read_tracks, write_tracks};
+
+#[cfg(feature = "vision")]
+pub use {
+    config::{DetectorConfig, FixedCenterConfig, FrontEndConfig, FrontEndMode, MatcherConfig, RotationConfig},
+    descriptor::{Descriptor, Orientation, describe},
+    error::VisionError,
+    fixed_center::{CenterProblem, CenterSolution, CenteredPair, rotations_about_center},
+    front_end::{DesignatedStep, FrameReport, FrontEnd, RotationPrediction, TrackInputs},
+    harris::{Feature, detect_harris, noise_sigma_dn},
+    matching::{Described, IndexMatch, match_features, match_features_guided},
+    relative_rotation::{PairHints, PairSolution, PixelMatches, relative_rotation},
+    sequence::track_sequence,
+    silhouette::{bright_centroid_px, inside_silhouette},
+};

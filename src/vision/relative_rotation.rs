@@ -100,7 +100,7 @@ pub fn relative_rotation(
     let plausible = plausible(&usable, &planes, essential.as_ref(), widest);
     let kept: Vec<Sight> = usable.iter().zip(&plausible).filter(|(_, keep)| **keep).map(|(s, _)| *s).collect();
     let fits = Fits::new(&kept, widest, homography.as_ref(), essential.as_ref(), hints, config);
-    let mut solution = judge(&fits, &kept, usable.len(), hints, config);
+    let mut solution = judge(&fits, (&kept, usable.len(), widest), hints, config);
     solution.inliers = spread(&spread(&solution.inliers, plausible.iter().copied()), all.iter().map(Option::is_some));
     Ok(solution)
 }
@@ -121,7 +121,12 @@ fn is_mirror_image(h: &Matrix3<f64>, sights: &[Sight], focal_px: f64, config: &R
 }
 
 /// Chooses a model, then holds the winner against every gate.
-fn judge(fits: &Fits, sights: &[Sight], offered: usize, hints: &PairHints, config: &RotationConfig) -> PairSolution {
+fn judge(
+    fits: &Fits,
+    (sights, offered, widest): (&[Sight], usize, f64),
+    hints: &PairHints,
+    config: &RotationConfig,
+) -> PairSolution {
     let Some(winner) = fits.best(sights) else {
         return PairSolution::failed(PairStatus::Degenerate, sights.len());
     };
@@ -133,9 +138,11 @@ fn judge(fits: &Fits, sights: &[Sight], offered: usize, hints: &PairHints, confi
     if let Candidate::Turn(turn) = &winner {
         return judge_turn(turn, sights, config).unwrap_or_else(refused);
     }
-    let rivals = fits.rivals(&winner, sights, config);
-    let chosen = match choose(&winner, rivals, hints, config) {
-        Ok(chosen) => chosen,
+    let mut all = fits.rivals(&winner, sights, config);
+    all.insert(0, winner.clone());
+    let relief = || fits.favoured_by_relief(&all, sights, widest);
+    let chosen = match choose(&all, relief, hints, config) {
+        Ok(chosen) => all.swap_remove(chosen),
         Err(status) => return refused(status),
     };
     let Some(covariance) = chosen.covariance().filter(|c| is_determined(c, config)) else {
@@ -153,30 +160,37 @@ fn judge(fits: &Fits, sights: &[Sight], offered: usize, hints: &PairHints, confi
     }
 }
 
-/// The winner or a rival, as the hints say; an error where nothing tells them apart or all contradict the prediction.
+/// Which of the winner and its rivals, as the hints and the relief say; an error where nothing tells them apart or all
+/// contradict the prediction.
 fn choose(
-    winner: &Candidate,
-    rivals: Vec<Candidate>,
+    all: &[Candidate],
+    relief: impl Fn() -> Option<usize>,
     hints: &PairHints,
     config: &RotationConfig,
-) -> Result<Candidate, PairStatus> {
-    let mut all = vec![winner.clone()];
-    all.extend(rivals);
+) -> Result<usize, PairStatus> {
     if let Some(predicted) = hints.camera_to_from_camera_from {
         let off = |c: &Candidate| so3::log(&(c.rotation() * predicted.inverse())).norm();
-        let best = all.into_iter().min_by(|a, b| off(a).total_cmp(&off(b))).ok_or(PairStatus::Degenerate)?;
-        let variance = config.prior_sigma_rad.powi(2) + best.covariance().map_or(0.0, |c| c.trace());
-        return if off(&best) < 5.0 * variance.sqrt() { Ok(best) } else { Err(PairStatus::Rejected) };
+        let best = least(all, off);
+        let variance = config.prior_sigma_rad.powi(2) + all[best].covariance().map_or(0.0, |c| c.trace());
+        return if off(&all[best]) < 5.0 * variance.sqrt() { Ok(best) } else { Err(PairStatus::Rejected) };
     }
     if all.len() == 1 {
-        return Ok(all.remove(0));
+        return Ok(0);
+    }
+    if let Some(chosen) = relief() {
+        return Ok(chosen);
     }
     let normal = hints.normal_in_from.ok_or(PairStatus::Degenerate)?;
     let off = |c: &Candidate| c.normal().map_or(f64::INFINITY, |n| n.angle(&normal));
-    all.sort_by(|a, b| off(a).total_cmp(&off(b)));
+    let best = least(all, off);
+    let next = (0..all.len()).filter(|i| *i != best).map(|i| off(&all[i])).fold(f64::INFINITY, f64::min);
     // The ground's slope changes little from picture to picture: the nearer normal must be near, and clearly nearer.
-    let clear = off(&all[0]) < 0.2 && off(&all[1]) > off(&all[0]) + 0.2;
-    if clear { Ok(all.remove(0)) } else { Err(PairStatus::Degenerate) }
+    let clear = off(&all[best]) < 0.15 && next > 2.0 * off(&all[best]) + 0.05;
+    if clear { Ok(best) } else { Err(PairStatus::Degenerate) }
+}
+
+fn least(all: &[Candidate], measure: impl Fn(&Candidate) -> f64) -> usize {
+    (0..all.len()).min_by(|a, b| measure(&all[*a]).total_cmp(&measure(&all[*b]))).unwrap_or(0)
 }
 
 fn is_determined(covariance: &Matrix3<f64>, config: &RotationConfig) -> bool {

@@ -1,0 +1,107 @@
+//! The designated landing point, carried from picture to picture by the verified matches about it.
+//!
+//! Ground near the point is nearly flat, so a weighted affine fit to the nearest matches says where it went; the grey
+//! levels of the patch, warped by that fit, then refine it. Each picture is reached from the oldest recent picture that
+//! shares enough tracks near the point, so that errors add up as seldom as possible. Where the point leaves the picture
+//! or the matches, it ends: nothing is invented.
+
+use super::VisionError;
+use super::front_end::DesignatedStep;
+use super::local_affine::{Affine, fit_affine};
+use super::patch::refine_by_patch;
+use super::sequence::{Chain, Job};
+use super::tracks::TrackNumbers;
+use crate::dataset::{DesignatedPoint, Frame};
+use image::GrayImage;
+use nalgebra::{Matrix2, Vector2};
+use std::collections::VecDeque;
+
+/// Pictures back to which the point may be tied.
+const MEMORY: usize = 8;
+/// The point ends this close to the edge, px.
+const MARGIN_PX: f64 = 4.0;
+/// Largest change of scale between the tied pictures: beyond it, patches and features no longer look alike.
+const MOST_SCALE: f64 = 1.35;
+
+struct Past {
+    frame: usize,
+    picture: GrayImage,
+    step: DesignatedStep,
+}
+
+/// Carries the point through the chain from the picture at its time (the first one otherwise).
+pub(super) fn carry_designated(
+    job: &Job,
+    chosen: &[&Frame],
+    chain: &Chain,
+    numbers: &TrackNumbers,
+    start: &DesignatedPoint,
+) -> Result<Vec<DesignatedStep>, VisionError> {
+    let first = chosen.iter().position(|f| f.t_ns == start.t_ns).unwrap_or(0);
+    if !job.camera().contains(&start.pixel_px, MARGIN_PX) {
+        return Ok(Vec::new());
+    }
+    let mut steps = vec![DesignatedStep {
+        t_ns: chosen[first].t_ns,
+        pixel_px: start.pixel_px,
+        step_sigma_px: 0.0,
+        covariance_px2: start.covariance_px2,
+        t_ns_from: chosen[first].t_ns,
+        refined: false,
+    }];
+    let mut past = VecDeque::new();
+    past.push_back(Past { frame: first, picture: job.sequence.load(chosen[first])?, step: steps[0] });
+    for (frame, file) in chosen.iter().enumerate().skip(first + 1) {
+        let picture = job.sequence.load(file)?;
+        let carried = past.iter().find_map(|p| carry(p, (frame, &picture, file.t_ns), chain, numbers));
+        let Some(step) = carried.filter(|s| job.camera().contains(&s.pixel_px, MARGIN_PX)) else { break };
+        steps.push(step);
+        past.push_back(Past { frame, picture, step });
+        if past.len() > MEMORY {
+            past.pop_front();
+        }
+    }
+    Ok(steps)
+}
+
+/// The point in a new picture from a past one; `None` where too few tracks near it are shared, or the scale changed too
+/// much.
+fn carry(
+    past: &Past,
+    (frame, picture, t_ns): (usize, &GrayImage, i64),
+    chain: &Chain,
+    numbers: &TrackNumbers,
+) -> Option<DesignatedStep> {
+    let (a, b) = (&chain.frames[past.frame].features, &chain.frames[frame].features);
+    let shared = numbers.shared(past.frame, frame);
+    let pairs: Vec<(Vector2<f64>, Vector2<f64>, f64)> = shared
+        .into_iter()
+        .map(|(i, j)| (a[i].pixel_px, b[j].pixel_px, a[i].sigma_px.hypot(b[j].sigma_px)))
+        .collect();
+    let adjacent = frame == past.frame + 1;
+    let local = fit_affine(&past.step.pixel_px, &pairs, if adjacent { 8 } else { 16 })?;
+    let scale = local.affine.linear.determinant().abs().sqrt();
+    if !adjacent && !(1.0 / MOST_SCALE..MOST_SCALE).contains(&scale) {
+        return None;
+    }
+    let predicted = local.affine.apply(&past.step.pixel_px);
+    let refined = refine_by_patch(&past.picture, picture, &past.step.pixel_px, &local.affine)
+        .filter(|r| (r.pixel_px - predicted).norm() < 3.0 * local.sigma_px + 0.5);
+    let (pixel_px, step_sigma_px) = match &refined {
+        Some(r) => (r.pixel_px, r.sigma_px),
+        None => (predicted, local.sigma_px),
+    };
+    Some(DesignatedStep {
+        t_ns,
+        pixel_px,
+        step_sigma_px,
+        covariance_px2: grown(&past.step.covariance_px2, &local.affine, step_sigma_px),
+        t_ns_from: past.step.t_ns,
+        refined: refined.is_some(),
+    })
+}
+
+fn grown(covariance_px2: &Matrix2<f64>, affine: &Affine, step_sigma_px: f64) -> Matrix2<f64> {
+    let carried = affine.linear * covariance_px2 * affine.linear.transpose();
+    (carried + carried.transpose()) * 0.5 + Matrix2::identity() * step_sigma_px.powi(2)
+}

@@ -1,0 +1,210 @@
+//! Rotations of a body that turns about a centre at a fixed place in the camera: three unknowns a pair, and the
+//! direction of the centre for the whole sequence.
+//!
+//! `E(R) = [(I - R) T]× R`: the scale cancels, and a narrow field of view determines `R` where a free translation would
+//! not. The centre starts at the centroid of the bright silhouette and is refined over all pairs at once.
+
+use super::center_start::{CenterView, best_start, is_near_side};
+use super::pair_fit::{Loss, Normal, fit, normal_equations, observed_information};
+use super::pair_models::{AboutCenter, WithCenter};
+use super::sight::Sight;
+use super::{FixedCenterConfig, PairSolution, PairStatus, PixelMatches, RotationConfig, RotationModel};
+use crate::geometry::{Camera, so3};
+use nalgebra::{Matrix2, Matrix2x3, Matrix3, Matrix3x2, Unit, UnitQuaternion, Vector2, Vector3};
+use rayon::prelude::*;
+
+/// A pair of pictures of the body.
+#[derive(Debug, Clone, Copy)]
+pub struct CenteredPair<'a> {
+    /// The matched pixels.
+    pub matches: PixelMatches<'a>,
+    /// Time between the pictures, s.
+    pub dt_s: f64,
+    /// Predicted rotation, where there is one.
+    pub predicted: Option<UnitQuaternion<f64>>,
+}
+
+/// Rotations of all pairs, and the centre that they share.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CenterSolution {
+    /// Direction of the centre in the camera.
+    pub center_in_camera: Unit<Vector3<f64>>,
+    /// Its covariance (rad²) along the axes of [`so3::tangent_basis`]. The part of the rotations' errors that it causes
+    /// is common to all pairs.
+    pub center_covariance_rad2: Matrix2<f64>,
+    /// One solution a pair.
+    pub pairs: Vec<PairSolution>,
+}
+
+/// Everything that the solver needs besides the pairs.
+#[derive(Debug, Clone, Copy)]
+pub struct CenterProblem<'a> {
+    /// The camera.
+    pub camera: &'a Camera,
+    /// First guess of the centre's direction.
+    pub center_guess: Unit<Vector3<f64>>,
+    /// The fixed-centre model's parameters.
+    pub config: &'a FixedCenterConfig,
+    /// Thresholds.
+    pub rotation: &'a RotationConfig,
+}
+
+/// Solves all pairs of a sequence; pairs in time order, so that the rate gate can compare neighbours.
+pub fn rotations_about_center(pairs: &[CenteredPair], problem: &CenterProblem) -> CenterSolution {
+    let views: Vec<CenterView> = pairs.par_iter().map(|p| CenterView::new(p, problem)).collect();
+    let mut center = problem.center_guess;
+    let mut covariance = Matrix2::identity() * problem.config.center_sigma_rad.powi(2);
+    let mut found: Vec<Option<AboutCenter>> =
+        views.par_iter().map(|v| best_start(v, center, &v.predicted_starts(), problem.rotation)).collect();
+    for _ in 0..6 {
+        drop_strays(&mut found, pairs, problem.config);
+        let before = center;
+        (center, covariance) = refine_center(&views, &found, center, problem);
+        found = views.par_iter().zip(&found).map(|(v, f)| f.map(|f| moved_to(center, f, v))).collect();
+        if center.angle(&before) < 1e-7 {
+            break;
+        }
+    }
+    drop_strays(&mut found, pairs, problem.config);
+    solve_again(&mut found, &views, pairs, (center, problem));
+    let solved = views.par_iter().zip(&found).map(|(v, f)| finish(v, *f, &covariance, problem.rotation)).collect();
+    CenterSolution { center_in_camera: center, center_covariance_rad2: covariance, pairs: solved }
+}
+
+/// Solves one pair about a known centre, from a predicted rotation.
+pub(super) fn rotation_about_center(
+    pair: &CenteredPair,
+    center: (&Unit<Vector3<f64>>, &Matrix2<f64>),
+    problem: &CenterProblem,
+) -> PairSolution {
+    let view = CenterView::new(pair, problem);
+    let found = best_start(&view, *center.0, &view.predicted_starts(), problem.rotation);
+    finish(&view, found, center.1, problem.rotation)
+}
+
+fn moved_to(center: Unit<Vector3<f64>>, found: AboutCenter, view: &CenterView) -> AboutCenter {
+    fit(AboutCenter { center, ..found }, &view.sights, view.widest).model
+}
+
+/// Newton step of the centre over all solved pairs, their rotations eliminated (Schur complement).
+fn refine_center(
+    views: &[CenterView],
+    found: &[Option<AboutCenter>],
+    center: Unit<Vector3<f64>>,
+    problem: &CenterProblem,
+) -> (Unit<Vector3<f64>>, Matrix2<f64>) {
+    let prior = problem.config.center_sigma_rad.powi(-2);
+    let basis = so3::tangent_basis(&center);
+    let off = basis.transpose() * (problem.center_guess.into_inner() - center.into_inner());
+    let mut information = Matrix2::identity() * prior;
+    let mut gradient: Vector2<f64> = -off * prior;
+    for (view, model) in views.iter().zip(found).filter_map(|(v, f)| f.map(|f| (v, AboutCenter { center, ..f }))) {
+        let scale = super::pair_fit::robust_scale::<3, _>(&model, &view.sights, view.widest);
+        let normal = normal_equations(&WithCenter(model), &view.sights, Loss::Truncated(3.0 * scale));
+        let (i, g) = without_rotation(&normal);
+        information += i / scale.powi(2);
+        gradient += g / scale.powi(2);
+    }
+    let covariance = information.try_inverse().unwrap_or_else(Matrix2::identity);
+    let step = -(covariance * gradient);
+    let step = step * (0.05 / step.norm().max(0.05));
+    (Unit::new_normalize(center.into_inner() + basis * step), covariance)
+}
+
+fn without_rotation(normal: &Normal<5>) -> (Matrix2<f64>, Vector2<f64>) {
+    let rr: Matrix3<f64> = normal.information.fixed_view::<3, 3>(0, 0).into_owned();
+    let cr: Matrix2x3<f64> = normal.information.fixed_view::<2, 3>(3, 0).into_owned();
+    let cc: Matrix2<f64> = normal.information.fixed_view::<2, 2>(3, 3).into_owned();
+    let inverse = rr.try_inverse().unwrap_or_else(Matrix3::zeros);
+    let gain = cr * inverse;
+    (cc - gain * cr.transpose(), normal.gradient.fixed_rows::<2>(3) - gain * normal.gradient.fixed_rows::<3>(0))
+}
+
+/// Rotation rate of a pair, rad/s, in the first camera's axes.
+fn rate(found: &Option<AboutCenter>, pair: &CenteredPair) -> Option<Vector3<f64>> {
+    found.map(|f| so3::log(&f.rotation) / pair.dt_s)
+}
+
+/// Component-wise median of the rates of a pair's solved neighbours (at most three on each side), itself left out.
+fn neighbours_rate(rates: &[Option<Vector3<f64>>], index: usize) -> Option<Vector3<f64>> {
+    let before = rates[..index].iter().rev().flatten().take(3);
+    let near: Vec<&Vector3<f64>> = before.chain(rates[index + 1..].iter().flatten().take(3)).collect();
+    let median = |i: usize| {
+        let mut values: Vec<f64> = near.iter().map(|r| r[i]).collect();
+        values.sort_by(f64::total_cmp);
+        let n = values.len();
+        0.5 * (values[(n - 1) / 2] + values[n / 2])
+    };
+    (near.len() >= 2).then(|| Vector3::from_fn(|i, _| median(i)))
+}
+
+fn is_stray(rate: &Vector3<f64>, expected: &Vector3<f64>, config: &FixedCenterConfig) -> bool {
+    (rate - expected).norm() > config.rate_gate_rad_s.max(config.rate_gate_ratio * expected.norm())
+}
+
+/// Forgets the rotations that leave their neighbours' median.
+fn drop_strays(found: &mut [Option<AboutCenter>], pairs: &[CenteredPair], config: &FixedCenterConfig) {
+    let rates: Vec<_> = found.iter().zip(pairs).map(|(f, p)| rate(f, p)).collect();
+    for (index, slot) in found.iter_mut().enumerate() {
+        if let (Some(own), Some(expected)) = (rates[index], neighbours_rate(&rates, index)) {
+            if is_stray(&own, &expected, config) {
+                *slot = None;
+            }
+        }
+    }
+}
+
+/// Solves the forgotten pairs from their neighbours' median rate; what strays again stays unsolved.
+fn solve_again(
+    found: &mut [Option<AboutCenter>],
+    views: &[CenterView],
+    pairs: &[CenteredPair],
+    (center, problem): (Unit<Vector3<f64>>, &CenterProblem),
+) {
+    let rates: Vec<_> = found.iter().zip(pairs).map(|(f, p)| rate(f, p)).collect();
+    for (index, slot) in found.iter_mut().enumerate().filter(|(_, slot)| slot.is_none()) {
+        let Some(expected) = neighbours_rate(&rates, index) else { continue };
+        let starts = [1.0, 0.9, 1.1].map(|k| so3::exp(&(expected * pairs[index].dt_s * k)));
+        let again = best_start(&views[index], center, &starts, problem.rotation);
+        *slot = again.filter(|f| !is_stray(&(so3::log(&f.rotation) / pairs[index].dt_s), &expected, problem.config));
+    }
+}
+
+/// Holds a solved pair against every gate; its covariance includes that of the centre.
+fn finish(
+    view: &CenterView,
+    found: Option<AboutCenter>,
+    center_covariance: &Matrix2<f64>,
+    config: &RotationConfig,
+) -> PairSolution {
+    let refused = |status| PairSolution::failed(status, view.offered);
+    let Some(model) = found else {
+        return refused(view.failure.unwrap_or(PairStatus::Rejected));
+    };
+    let fitted = fit(model, &view.sights, view.widest);
+    let enough = (config.min_inlier_ratio * view.offered as f64).max(config.min_matches as f64);
+    if (fitted.inlier_count() as f64) < enough || !is_near_side(&fitted.model, &view.sights) {
+        return refused(PairStatus::Rejected);
+    }
+    let Some(own) = fitted.covariance else { return refused(PairStatus::Degenerate) };
+    let agreeing: Vec<Sight> =
+        view.sights.iter().zip(&fitted.inliers).filter(|(_, inlier)| **inlier).map(|(s, _)| *s).collect();
+    let full = observed_information(&WithCenter(fitted.model), &agreeing, Loss::Truncated(f64::INFINITY));
+    let rr: Matrix3<f64> = full.fixed_view::<3, 3>(0, 0).into_owned();
+    let rc: Matrix3x2<f64> = full.fixed_view::<3, 2>(0, 3).into_owned();
+    let by_center = rr.try_inverse().unwrap_or_else(Matrix3::zeros) * rc;
+    let covariance = own + by_center * center_covariance * by_center.transpose();
+    if covariance.symmetric_eigenvalues().max().sqrt() > config.max_sigma_rad {
+        return refused(PairStatus::Degenerate);
+    }
+    PairSolution {
+        camera_to_from_camera_from: fitted.model.rotation,
+        covariance_rad2: covariance,
+        direction_in_to: Unit::try_new(fitted.model.translation(), 1e-12),
+        normal_in_from: None,
+        inliers: view.spread(&fitted.inliers),
+        noise_scale: fitted.scale,
+        model: RotationModel::FixedCenter,
+        status: PairStatus::Ok,
+    }
+}

@@ -1,0 +1,127 @@
+//! Features of one picture, and their matches with the next.
+
+use super::descriptor::{Descriptor, Orientation, describe};
+use super::front_end::FrameReport;
+use super::matching::{Described, IndexMatch, match_features, match_features_guided};
+use super::silhouette::{bright_centroid_px, inside_silhouette};
+use super::{Feature, FrontEndConfig, FrontEndMode, MatchedPair, PixelMatches, VisionError, detect_harris};
+use crate::dataset::{Frame, ImageSequence};
+use crate::geometry::Camera;
+use nalgebra::{UnitQuaternion, Vector2};
+use std::time::Instant;
+
+/// A picture's features and descriptors; the picture itself is gone.
+pub(super) struct FrameFeatures {
+    pub(super) features: Vec<Feature>,
+    pub(super) centroid_px: Option<Vector2<f64>>,
+    pub(super) report: FrameReport,
+    upright: Vec<Option<Descriptor>>,
+    turned: Vec<Option<Descriptor>>,
+}
+
+pub(super) fn milliseconds(start: Instant) -> f64 {
+    start.elapsed().as_secs_f64() * 1e3
+}
+
+impl FrameFeatures {
+    /// Loads a picture, finds its features and describes them.
+    pub(super) fn find(sequence: &ImageSequence, frame: &Frame, config: &FrontEndConfig) -> Result<Self, VisionError> {
+        let start = Instant::now();
+        let picture = sequence.load(frame)?;
+        let load_ms = milliseconds(start);
+        let start = Instant::now();
+        let about_center = config.mode == FrontEndMode::FixedCenter;
+        let mask =
+            about_center.then(|| inside_silhouette(&picture, config.fixed_center.limb_margin_px)).transpose()?;
+        let centroid_px = if about_center { bright_centroid_px(&picture)? } else { None };
+        let features = detect_harris(&picture, mask.as_ref(), &config.detector)?;
+        let detect_ms = milliseconds(start);
+        let start = Instant::now();
+        let upright = describe(&picture, &features, Orientation::Upright)?;
+        let turned = describe(&picture, &features, Orientation::Centroid)?;
+        let describe_ms = milliseconds(start);
+        let (index, t_ns) = (frame.index, frame.t_ns);
+        let report = FrameReport {
+            index,
+            t_ns,
+            features: features.len(),
+            load_ms,
+            detect_ms,
+            describe_ms,
+            ..FrameReport::default()
+        };
+        Ok(FrameFeatures { features, centroid_px, report, upright, turned })
+    }
+
+    fn described(&self, orientation: Orientation) -> Described<'_> {
+        let descriptors = match orientation {
+            Orientation::Upright => &self.upright,
+            Orientation::Centroid => &self.turned,
+        };
+        Described { features: &self.features, descriptors }
+    }
+
+    /// Drops what only matching needs.
+    pub(super) fn forget_descriptors(&mut self) {
+        self.upright = Vec::new();
+        self.turned = Vec::new();
+    }
+}
+
+/// Ways to match, the most selective first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Way {
+    Guided,
+    Upright,
+    Turned,
+}
+
+/// Matches two pictures in one way; without a prediction the guided way finds nothing.
+pub(super) fn match_pair(
+    (from, to): (&FrameFeatures, &FrameFeatures),
+    way: Way,
+    (camera, predicted): (&Camera, Option<UnitQuaternion<f64>>),
+    config: &FrontEndConfig,
+) -> Result<Vec<IndexMatch>, VisionError> {
+    let orientation = match way {
+        Way::Guided if predicted.is_some_and(|q| roll_rad(&q).abs() < 0.2) => Orientation::Upright,
+        Way::Upright => Orientation::Upright,
+        _ => Orientation::Centroid,
+    };
+    let (a, b) = (from.described(orientation), to.described(orientation));
+    if way != Way::Guided {
+        return match_features(a, b, &config.matcher);
+    }
+    let Some(rotation) = predicted else { return Ok(Vec::new()) };
+    let predict =
+        |pixel: &Vector2<f64>| camera.unproject(pixel).and_then(|ray| camera.project(&(rotation * ray.into_inner())));
+    Ok(match_features_guided(a, b, &predict, &config.matcher))
+}
+
+/// Turn of the picture about its axis.
+fn roll_rad(rotation: &UnitQuaternion<f64>) -> f64 {
+    2.0 * rotation.k.atan2(rotation.w)
+}
+
+/// Matched pixels with their noise, owned.
+#[derive(Debug, Clone, Default)]
+pub(super) struct PairPixels {
+    pub(super) pair: MatchedPair,
+    pub(super) sigma_px: Vec<f64>,
+}
+
+impl PairPixels {
+    pub(super) fn new(from: &[Feature], to: &[Feature], matches: impl Iterator<Item = (usize, usize)>) -> Self {
+        let mut pixels = PairPixels::default();
+        for (i, j) in matches {
+            pixels.pair.from_px.push(from[i].pixel_px);
+            pixels.pair.to_px.push(to[j].pixel_px);
+            pixels.sigma_px.push((0.5 * (from[i].sigma_px.powi(2) + to[j].sigma_px.powi(2))).sqrt());
+        }
+        pixels
+    }
+
+    pub(super) fn view(&self) -> PixelMatches<'_> {
+        PixelMatches { pair: &self.pair, sigma_px: &self.sigma_px }
+    }
+}

@@ -1,0 +1,86 @@
+//! What the front end takes and gives.
+
+use super::{RelativeRotation, TrackObservation};
+use crate::dataset::DesignatedPoint;
+use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector2, Vector3};
+use std::ops::Range;
+
+/// Predicted rotation `camera(t_to)_from_camera(t_from)` of two times in ns.
+pub type RotationPrediction<'a> = &'a (dyn Fn(i64, i64) -> UnitQuaternion<f64> + Sync);
+
+/// Which pictures to use, and what is known besides.
+#[derive(Clone)]
+pub struct TrackInputs<'a> {
+    /// Positions in the sequence, the end left out; clipped to the sequence.
+    pub frames: Range<usize>,
+    /// Take every n-th of them, 1 or more.
+    pub every: usize,
+    /// Predicted rotation between two times, from a gyroscope.
+    pub rotation_prior: Option<RotationPrediction<'a>>,
+    /// The landing point in the first picture.
+    pub designated: Option<DesignatedPoint>,
+}
+
+impl Default for TrackInputs<'_> {
+    fn default() -> Self {
+        TrackInputs { frames: 0..usize::MAX, every: 1, rotation_prior: None, designated: None }
+    }
+}
+
+/// What was done with one picture. The times are the only part of a result that may differ between two runs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FrameReport {
+    /// Position in the sequence.
+    pub index: usize,
+    /// Time in ns.
+    pub t_ns: i64,
+    /// Features found.
+    pub features: usize,
+    /// Matches with the picture before.
+    pub matches: usize,
+    /// Reading the file, ms.
+    pub load_ms: f64,
+    /// Detection, ms.
+    pub detect_ms: f64,
+    /// Description, ms.
+    pub describe_ms: f64,
+    /// Matching with the picture before, ms.
+    pub match_ms: f64,
+    /// Solving the rotation from the picture before, ms.
+    pub rotation_ms: f64,
+}
+
+/// Where the designated point was carried to in one picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DesignatedStep {
+    /// Time in ns.
+    pub t_ns: i64,
+    /// Pixel (u, v).
+    pub pixel_px: Vector2<f64>,
+    /// 1σ of this transfer alone, px.
+    pub step_sigma_px: f64,
+    /// Covariance of the pixel, with the first picture's and every transfer's share, px².
+    pub covariance_px2: Matrix2<f64>,
+    /// Time of the picture that it was carried from, ns.
+    pub t_ns_from: i64,
+    /// Whether the grey levels about the point refined what the matches said.
+    pub refined: bool,
+}
+
+/// Everything that the front end found in a sequence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrontEnd {
+    /// Tracks of two or more pictures in order of time, then of track number; the designated point's σ is the root mean
+    /// square of its whole covariance.
+    pub observations: Vec<TrackObservation>,
+    /// Rotations of adjacent pictures in order of time, then of keyframe pairs.
+    pub rotations: Vec<RelativeRotation>,
+    /// One report a picture.
+    pub frames: Vec<FrameReport>,
+    /// Direction of the centre of rotation, in the fixed-centre mode.
+    pub center_in_camera: Option<Unit<Vector3<f64>>>,
+    /// Covariance (rad²) of that direction along the axes of [`crate::geometry::so3::tangent_basis`].
+    pub center_covariance_rad2: Option<Matrix2<f64>>,
+    /// The designated point, as long as it could be carried.
+    pub designated: Vec<DesignatedStep>,
+}

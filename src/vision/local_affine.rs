@@ -1,0 +1,80 @@
+//! An affine map fitted to the matches near a point.
+
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+
+/// `p -> linear p + shift`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Affine {
+    pub(super) linear: Matrix2<f64>,
+    pub(super) shift: Vector2<f64>,
+}
+
+impl Affine {
+    pub(super) fn apply(&self, pixel_px: &Vector2<f64>) -> Vector2<f64> {
+        self.linear * pixel_px + self.shift
+    }
+}
+
+/// An affine map and the 1σ in px of where it puts the point.
+pub(super) struct LocalFit {
+    pub(super) affine: Affine,
+    pub(super) sigma_px: f64,
+}
+
+/// Nearest matches used.
+const NEAREST: usize = 40;
+
+/// Robust weighted fit to the nearest matches (from, to, σ in px); `None` with fewer than `fewest`, or where the point lies
+/// outside of what they span. Near matches weigh more: curvature of the ground grows with the square of the distance.
+pub(super) fn fit_affine(
+    about_px: &Vector2<f64>,
+    matches: &[(Vector2<f64>, Vector2<f64>, f64)],
+    fewest: usize,
+) -> Option<LocalFit> {
+    let mut near: Vec<_> = matches.iter().map(|m| ((m.0 - about_px).norm(), m)).collect();
+    near.sort_by(|a, b| a.0.total_cmp(&b.0));
+    near.truncate(NEAREST);
+    if near.len() < fewest {
+        return None;
+    }
+    let reach = near[near.len() / 2].0.max(20.0);
+    let prior: Vec<f64> = near.iter().map(|(d, m)| 1.0 / (m.2.powi(2) * (1.0 + (d / reach).powi(2)).powi(2))).collect();
+    let mut weights = prior.clone();
+    let mut fit = solve(about_px, &near, &weights)?;
+    for _ in 0..6 {
+        let residual = |(_, m): &(f64, &(Vector2<f64>, Vector2<f64>, f64))| {
+            (m.1 - fit.0 * (m.0 - about_px).push(1.0)).norm() / m.2
+        };
+        let sizes: Vec<f64> = near.iter().map(residual).collect();
+        let mut sorted = sizes.clone();
+        sorted.sort_by(f64::total_cmp);
+        let limit = (3.0 * sorted[sorted.len() / 2] / 1.18).max(1.0);
+        weights = prior.iter().zip(&sizes).map(|(w, s)| w / (1.0 + (s / limit).powi(2)).powi(2)).collect();
+        fit = solve(about_px, &near, &weights)?;
+    }
+    let (map, inverse) = fit;
+    let misfit: f64 =
+        near.iter().zip(&weights).map(|((_, m), w)| w * (m.1 - map * (m.0 - about_px).push(1.0)).norm_squared()).sum();
+    let variance = (misfit / (2.0 * near.len() as f64 - 6.0)).max(0.25);
+    let linear: Matrix2<f64> = map.fixed_view::<2, 2>(0, 0).into_owned();
+    let affine = Affine { linear, shift: map.column(2) - linear * about_px };
+    Some(LocalFit { affine, sigma_px: (inverse[(2, 2)] * variance).sqrt() })
+}
+
+type Map = nalgebra::Matrix2x3<f64>;
+
+/// Weighted least squares about the point: the map, and the inverse of its normal matrix.
+fn solve(
+    about_px: &Vector2<f64>,
+    near: &[(f64, &(Vector2<f64>, Vector2<f64>, f64))],
+    weights: &[f64],
+) -> Option<(Map, Matrix3<f64>)> {
+    let (mut normal, mut right) = (Matrix3::zeros(), nalgebra::Matrix3x2::zeros());
+    for ((_, m), w) in near.iter().zip(weights) {
+        let row: Vector3<f64> = (m.0 - about_px).push(1.0);
+        normal += row * row.transpose() * *w;
+        right += row * m.1.transpose() * *w;
+    }
+    let inverse = normal.try_inverse()?;
+    Some(((inverse * right).transpose(), inverse))
+}
