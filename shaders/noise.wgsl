@@ -120,8 +120,8 @@ fn octave_solid(octave: Octave, relative: vec3<f32>) -> NoiseSample {
     return noise;
 }
 
-// How much of a detail a picture shows: 0 below two pixel footprints, 1 above four.
+// How much of an octave a picture shows: 0 for cells below one pixel footprint, 1 above two and a half.
 fn visibility(wavelength_m: f32, footprint_m: f32) -> f32 {
-    let t = clamp(0.5 * (wavelength_m / footprint_m - 2.0), 0.0, 1.0);
+    let t = clamp((wavelength_m / footprint_m - 1.0) / 1.5, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
 }

@@ -16,8 +16,8 @@ pub(super) const COARSEST_LEVEL: i32 = 12;
 const SHADE_SPACINGS: f64 = 16.0;
 /// Relief of this many spacings and more displaces vertices.
 const HEIGHT_SPACINGS: f64 = 3.0;
-/// Classes of craters whose smallest diameter has this many spacings are drawn.
-const CRATER_SPACINGS: f64 = 4.0;
+/// Classes of craters and rocks whose smallest diameter has this many spacings are drawn.
+const FEATURE_SPACINGS: f64 = 3.0;
 
 /// Height in m, gradient by x and y, relative change of albedo.
 pub(super) type TileVertex = [f32; 4];
@@ -56,7 +56,7 @@ impl TileKey {
         GroundDetail {
             height_m: HEIGHT_SPACINGS * spacing_m,
             shade_m: SHADE_SPACINGS * spacing_m,
-            crater_m: CRATER_SPACINGS * spacing_m,
+            feature_m: FEATURE_SPACINGS * spacing_m,
             footprint_m: 0.0,
         }
     }

@@ -95,10 +95,10 @@ impl NoiseOctave {
         sample
     }
 
-    /// How much of a detail of this wavelength a picture shows: 0 below two pixel footprints, 1 above four, smooth
-    /// between, so that nothing pops into view.
+    /// How much of an octave a picture shows: 0 for lattice cells below one pixel footprint (waves of about two), 1 above
+    /// two and a half, smooth between, so that nothing pops into view.
     pub fn visibility(wavelength_m: f64, footprint_m: f64) -> f64 {
-        let t = (0.5 * (wavelength_m / footprint_m - 2.0)).clamp(0.0, 1.0);
+        let t = ((wavelength_m / footprint_m - 1.0) / 1.5).clamp(0.0, 1.0);
         t * t * (3.0 - 2.0 * t)
     }
 }

@@ -1,6 +1,6 @@
 //! Procedural terrain: fractal relief, craters and albedo, known at every place from kilometres down to centimetres.
 
-use super::{CraterClass, NoiseOctave, OctaveStrength, TerrainConfig};
+use super::{CraterClass, FeatureSample, NoiseOctave, OctaveStrength, RockClass, Scatter, TerrainConfig};
 use crate::stats::random_stream;
 use nalgebra::Vector2;
 use rand::RngExt;
@@ -10,6 +10,7 @@ use rand::RngExt;
 pub struct Terrain {
     octaves: Vec<NoiseOctave>,
     craters: Vec<CraterClass>,
+    rocks: Vec<RockClass>,
     mean_albedo: f64,
     height_at_origin_m: f64,
 }
@@ -32,8 +33,8 @@ pub struct GroundDetail {
     pub height_m: f64,
     /// Wavelength of relief and albedo that counts in gradient and albedo; at least `height_m`.
     pub shade_m: f64,
-    /// Smallest diameter of a class of craters.
-    pub crater_m: f64,
+    /// Smallest diameter of a class of craters or rocks.
+    pub feature_m: f64,
     /// Footprint of a pixel: details near it fade as they do in a picture. 0 shows all.
     pub footprint_m: f64,
 }
@@ -52,6 +53,7 @@ impl Terrain {
         let mut terrain = Terrain {
             octaves: NoiseOctave::planar(&strength, seed, "terrain-relief"),
             craters: crater_classes(config, seed),
+            rocks: rock_classes(config, seed),
             mean_albedo: config.albedo,
             height_at_origin_m: 0.0,
         };
@@ -96,12 +98,13 @@ impl Terrain {
                 sample.albedo_change += octave.albedo * noise.albedo * weight;
             }
         }
-        for class in self.craters.iter().take_while(|c| c.smallest_m >= detail.crater_m) {
-            let crater = class.sample(x_m, y_m);
-            sample.height_m += crater.height_m;
-            sample.gradient += crater.gradient;
-            sample.albedo_change += crater.albedo;
-        }
+        let mut features = FeatureSample::default();
+        let seen = |scatter: &Scatter| scatter.smallest_m >= detail.feature_m;
+        self.craters.iter().take_while(|c| seen(&c.scatter)).for_each(|c| c.add_to(&mut features, x_m, y_m));
+        self.rocks.iter().take_while(|r| seen(&r.scatter)).for_each(|r| r.add_to(&mut features, x_m, y_m));
+        sample.height_m += features.height_m;
+        sample.gradient += features.gradient;
+        sample.albedo_change += features.albedo;
         sample
     }
 
@@ -121,26 +124,33 @@ fn visibility(wavelength_m: f64, footprint_m: f64) -> f64 {
 }
 
 fn crater_classes(config: &TerrainConfig, seed: u64) -> Vec<CraterClass> {
-    let class = |(index, smallest_m): (usize, f64)| {
-        let mut random = random_stream(seed, "terrain-craters", index as u64);
-        CraterClass {
-            smallest_m,
-            probability: config.crater_density,
-            seed: [random.random(), random.random()],
-            exponent: config.crater_exponent,
+    let diameters_m = [config.smallest_crater_m, config.largest_crater_m];
+    Scatter::classes(diameters_m, config.crater_density, config.crater_exponent, seeds(seed, "terrain-craters"))
+        .into_iter()
+        .map(|scatter| CraterClass {
+            scatter,
             depth_ratio: config.crater_depth_ratio,
             site_slope: config.site_slope,
-            albedo_contrast: 6.0 * config.albedo_contrast,
-        }
-    };
-    // The density of a class relative to its cells follows from N(>D) ~ D^-b: constant for b = 2.
-    std::iter::successors(Some(0.5 * config.largest_crater_m), |d| Some(0.5 * d))
-        .take_while(|d| *d >= 0.999 * config.smallest_crater_m)
-        .enumerate()
-        .map(class)
-        .map(|c| CraterClass {
-            probability: (c.probability * (c.smallest_m / config.smallest_crater_m).powf(2.0 - c.exponent)).min(1.0),
-            ..c
+            albedo_contrast: 5.0 * config.albedo_contrast,
         })
         .collect()
+}
+
+fn rock_classes(config: &TerrainConfig, seed: u64) -> Vec<RockClass> {
+    let lengths_m = [config.smallest_rock_m, config.largest_rock_m];
+    Scatter::classes(lengths_m, config.rock_density, config.rock_exponent, seeds(seed, "terrain-rocks"))
+        .into_iter()
+        .map(|scatter| RockClass {
+            scatter,
+            site_slope: config.site_slope,
+            albedo_contrast: 10.0 * config.albedo_contrast,
+        })
+        .collect()
+}
+
+fn seeds(seed: u64, purpose: &'static str) -> impl FnMut(u64) -> [u32; 2] {
+    move |index| {
+        let mut random = random_stream(seed, purpose, index);
+        [random.random(), random.random()]
+    }
 }

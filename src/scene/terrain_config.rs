@@ -25,15 +25,16 @@ pub struct TerrainConfig {
     pub smallest_wavelength_m: f64,
     /// Hurst exponent of the relief, 0 to 1 (default 0.8).
     pub hurst: f64,
-    /// R.m.s. slope of the relief of all wavelengths down to `slope_scale_m`, rise over run (default 0.09).
+    /// R.m.s. slope of the relief of all wavelengths down to `slope_scale_m`, rise over run (default 0.11).
     pub rms_slope: f64,
     /// Wavelength in m that `rms_slope` is stated at (default 1).
     pub slope_scale_m: f64,
     /// Mean albedo, 0 to 1 (default 0.2).
     pub albedo: f64,
-    /// Relative r.m.s. variation of the albedo, per octave (default 0.035).
+    /// Relative r.m.s. variation of the albedo, per octave (default 0.025).
     pub albedo_contrast: f64,
-    /// Probability that a cell of the crater grid holds a crater, 0 (none) to 1 (default 0.55).
+    /// Probability of each crater that a cell of the crater grid can hold, for the smallest craters, 0 (none) to 1 (default
+    /// 0.5).
     pub crater_density: f64,
     /// Smallest crater diameter in m (default 0.3).
     pub smallest_crater_m: f64,
@@ -43,7 +44,15 @@ pub struct TerrainConfig {
     pub crater_exponent: f64,
     /// Depth over diameter of a fresh crater (default 0.2).
     pub crater_depth_ratio: f64,
-    /// No crater is deeper than this times its distance from the landing point (default 0.05).
+    /// Probability of each rock that a cell of the rock grid can hold, for the smallest rocks, 0 (none) to 1 (default 0.35).
+    pub rock_density: f64,
+    /// Smallest rock in m (default 0.06).
+    pub smallest_rock_m: f64,
+    /// Largest rock in m (default 4).
+    pub largest_rock_m: f64,
+    /// Exponent b of the number of rocks larger than a length, N(>D) ~ D^-b (default 2.4).
+    pub rock_exponent: f64,
+    /// No crater is deeper and no rock higher than this times its distance from the landing point (default 0.05).
     pub site_slope: f64,
 }
 
@@ -53,15 +62,19 @@ impl Default for TerrainConfig {
             largest_wavelength_m: 6000.0,
             smallest_wavelength_m: 0.02,
             hurst: 0.8,
-            rms_slope: 0.09,
+            rms_slope: 0.11,
             slope_scale_m: 1.0,
             albedo: 0.2,
-            albedo_contrast: 0.035,
-            crater_density: 0.55,
+            albedo_contrast: 0.025,
+            crater_density: 0.5,
             smallest_crater_m: 0.3,
             largest_crater_m: 800.0,
             crater_exponent: 2.0,
             crater_depth_ratio: 0.2,
+            rock_density: 0.35,
+            smallest_rock_m: 0.06,
+            largest_rock_m: 4.0,
+            rock_exponent: 2.4,
             site_slope: 0.05,
         }
     }
@@ -86,6 +99,10 @@ impl TerrainConfig {
             ("largest_crater_m", self.largest_crater_m, 0.01, 1e4, "0.01 to 10000 m"),
             ("crater_exponent", self.crater_exponent, 0.5, 5.0, "0.5 to 5"),
             ("crater_depth_ratio", self.crater_depth_ratio, 0.0, 0.4, "0 to 0.4"),
+            ("rock_density", self.rock_density, 0.0, 1.0, "0 to 1"),
+            ("smallest_rock_m", self.smallest_rock_m, 0.01, 100.0, "0.01 to 100 m"),
+            ("largest_rock_m", self.largest_rock_m, 0.01, 100.0, "0.01 to 100 m"),
+            ("rock_exponent", self.rock_exponent, 0.5, 5.0, "0.5 to 5"),
             ("site_slope", self.site_slope, 0.0, 1.0, "0 to 1"),
         ];
         for (key, value, low, high, range) in ranges {

@@ -4,7 +4,7 @@ use super::Terrain;
 use nalgebra::{Unit, Vector3};
 
 /// Steps assume that the ground is nowhere steeper than this, rise over run.
-const STEEPEST: f64 = 1.6;
+const STEEPEST: f64 = 3.0;
 /// Rays end here.
 const FARTHEST_M: f64 = 300_000.0;
 /// No ground is above this height.
