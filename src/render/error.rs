@@ -93,7 +93,9 @@ pub enum RenderError {
         least_m: f64,
     },
     /// It is night.
-    #[error("at {t_ns} ns the Sun is below the horizon of the site, and the picture would be black: raise its elevation")]
+    #[error(
+        "at {t_ns} ns the Sun is below the horizon of the site, and the picture would be black: raise its elevation"
+    )]
     SunBelowHorizon {
         /// Time of the view.
         t_ns: i64,

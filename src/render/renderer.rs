@@ -74,7 +74,8 @@ impl Renderer {
     /// horizon), or if the adapter fails.
     pub fn render(&mut self, view: &View) -> Result<RenderedFrame, RenderError> {
         let pose = &view.reference_from_camera;
-        let numbers = pose.translation.vector.iter().chain(pose.rotation.coords.iter()).chain(view.sun_in_reference.iter());
+        let numbers =
+            pose.translation.vector.iter().chain(pose.rotation.coords.iter()).chain(view.sun_in_reference.iter());
         if !numbers.copied().all(f64::is_finite) {
             return Err(RenderError::ViewNotFinite { t_ns: view.t_ns });
         }

@@ -126,8 +126,5 @@ fn bind(
 /// Two triangles a cell, counter-clockwise from above; all diagonals run the same way, as those of the coarser grid do.
 fn tile_indices() -> Vec<u16> {
     let cells = (0..SIDE - 1).flat_map(|j| (0..SIDE - 1).map(move |i| j * SIDE + i));
-    cells
-        .flat_map(|a| [a, a + 1, a + SIDE + 1, a, a + SIDE + 1, a + SIDE])
-        .map(|index| index as u16)
-        .collect()
+    cells.flat_map(|a| [a, a + 1, a + SIDE + 1, a, a + SIDE + 1, a + SIDE]).map(|index| index as u16).collect()
 }

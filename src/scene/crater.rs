@@ -45,8 +45,8 @@ impl CraterClass {
     fn crater(&self, feature: &Feature) -> Crater {
         let [age, tint, ..] = feature.random;
         let freshness = age * age;
-        let natural_m =
-            feature.diameter_m * self.depth_ratio * (0.15 + 0.85 * freshness) / (1.0 + feature.diameter_m / SHALLOWING_M);
+        let natural_m = feature.diameter_m * self.depth_ratio * (0.15 + 0.85 * freshness)
+            / (1.0 + feature.diameter_m / SHALLOWING_M);
         Crater {
             radius_m: 0.5 * feature.diameter_m,
             depth_m: at_most(natural_m, self.site_slope * feature.center_m.norm()),

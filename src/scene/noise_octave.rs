@@ -1,7 +1,7 @@
 //! Sums of noise octaves, each with its own rotation, offset and seed, so that no lattice shows.
 
-use super::noise::{NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, noise_2d, noise_3d};
 use super::NoiseSample;
+use super::noise::{NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, noise_2d, noise_3d};
 use crate::stats::random_stream;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use rand::RngExt;

@@ -84,8 +84,7 @@ impl Terrain {
 
     /// The ground at a place in m with chosen details.
     pub fn sample(&self, x_m: f64, y_m: f64, detail: &GroundDetail) -> GroundSample {
-        let mut sample =
-            GroundSample { height_m: -self.height_at_origin_m, gradient: Vector2::zeros(), albedo_change: 0.0 };
+        let mut sample = GroundSample { height_m: 0.0, gradient: Vector2::zeros(), albedo_change: 0.0 };
         for octave in self.octaves.iter().take_while(|o| o.wavelength_m >= detail.height_m) {
             let weight = visibility(octave.wavelength_m, detail.footprint_m);
             if weight <= 0.0 {
@@ -102,7 +101,8 @@ impl Terrain {
         let seen = |scatter: &Scatter| scatter.smallest_m >= detail.feature_m;
         self.craters.iter().take_while(|c| seen(&c.scatter)).for_each(|c| c.add_to(&mut features, x_m, y_m));
         self.rocks.iter().take_while(|r| seen(&r.scatter)).for_each(|r| r.add_to(&mut features, x_m, y_m));
-        sample.height_m += features.height_m;
+        // In this order, so that the origin comes out at exactly 0.
+        sample.height_m = sample.height_m + features.height_m - self.height_at_origin_m;
         sample.gradient += features.gradient;
         sample.albedo_change += features.albedo;
         sample

@@ -25,7 +25,7 @@ pub struct TerrainConfig {
     pub smallest_wavelength_m: f64,
     /// Hurst exponent of the relief, 0 to 1 (default 0.8).
     pub hurst: f64,
-    /// R.m.s. slope of the relief of all wavelengths down to `slope_scale_m`, rise over run (default 0.11).
+    /// R.m.s. slope of the relief of all wavelengths down to `slope_scale_m`, rise over run (default 0.09).
     pub rms_slope: f64,
     /// Wavelength in m that `rms_slope` is stated at (default 1).
     pub slope_scale_m: f64,
@@ -62,7 +62,7 @@ impl Default for TerrainConfig {
             largest_wavelength_m: 6000.0,
             smallest_wavelength_m: 0.02,
             hurst: 0.8,
-            rms_slope: 0.11,
+            rms_slope: 0.09,
             slope_scale_m: 1.0,
             albedo: 0.2,
             albedo_contrast: 0.025,
@@ -112,7 +112,11 @@ impl TerrainConfig {
         }
         if self.smallest_wavelength_m > self.largest_wavelength_m {
             let value = self.smallest_wavelength_m;
-            return Err(TerrainConfigError { key: "smallest_wavelength_m", value, range: "below largest_wavelength_m" });
+            return Err(TerrainConfigError {
+                key: "smallest_wavelength_m",
+                value,
+                range: "below largest_wavelength_m",
+            });
         }
         Ok(())
     }
