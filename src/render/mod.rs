@@ -1,1 +1,35 @@
-//! The `render` room.
+//! Pictures of terrain and small bodies with pixel-exact truth: the only room that names `wgpu`.
+//!
+//! A picture takes four passes: a shadow map from the Sun, surface samples at pixel centres (the truth), surface samples
+//! 2×2 a pixel (the picture), and one full-screen pass that shades them with detail finer than the mesh. Each shader in
+//! `shaders/` has the name of the file here that drives it. Positions reach the adapter relative to the camera,
+//! subtracted in f64 or in two f32 steps that lose nothing.
+
+mod body_geometry;
+mod config;
+mod enclosure;
+mod error;
+mod frame;
+mod geometry_pass;
+mod gpu;
+mod gpu_data;
+mod noise;
+mod projection;
+mod read_back;
+mod renderer;
+mod sensor;
+mod shading;
+mod shadow;
+mod surface;
+mod targets;
+mod terrain_geometry;
+mod terrain_levels;
+mod terrain_pool;
+mod terrain_tile;
+
+pub use config::{Photometry, RenderConfig};
+pub use error::RenderError;
+pub use frame::RenderedFrame;
+pub use gpu::{AdapterReport, Gpu, list_adapters};
+pub use renderer::{Renderer, World};
+pub use sensor::expose;

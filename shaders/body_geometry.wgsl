@@ -1,0 +1,32 @@
+// A small body's mesh: surface normal and depth of each sample.
+
+struct Geometry {
+    clip_from_relative: mat4x4<f32>, // relative = reference axes, camera at the origin, m
+    forward: vec4<f32>,              // optical axis in reference axes
+    camera_high: vec4<f32>,          // camera position
+    camera_low: vec4<f32>,           // what f32 dropped of it
+    level: vec4<f32>,                // unused
+}
+
+@group(0) @binding(0) var<uniform> geometry: Geometry;
+
+struct Varying {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) normal: vec3<f32>,
+    @location(1) depth: f32,
+}
+
+@vertex
+fn vertex(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> Varying {
+    let relative = (position - geometry.camera_high.xyz) - geometry.camera_low.xyz;
+    var out: Varying;
+    out.clip = geometry.clip_from_relative * vec4(relative, 1.0);
+    out.normal = normal;
+    out.depth = dot(geometry.forward.xyz, relative);
+    return out;
+}
+
+@fragment
+fn fragment(in: Varying) -> @location(0) vec4<f32> {
+    return vec4(in.normal, in.depth);
+}

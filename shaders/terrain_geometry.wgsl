@@ -1,0 +1,62 @@
+// Terrain tiles: 33 by 33 vertices each, pulled from a pool of tiles. Vertices far out in their level's range slide onto
+// the grid of the next coarser level, so that levels join without cracks and nothing pops.
+
+struct Geometry {
+    clip_from_relative: mat4x4<f32>, // relative = reference axes, camera at the origin, m
+    forward: vec4<f32>,              // optical axis in reference axes
+    camera_high: vec4<f32>,          // camera position, from the anchor in x and y
+    camera_low: vec4<f32>,           // what f32 dropped of it
+    level: vec4<f32>,                // x = height above ground m, y = range over spacing, z = morph start, w = morph end
+}
+
+struct Tile {
+    base: vec2<f32>, // corner of the tile from the anchor, m; exact
+    spacing: f32,    // of vertices, m
+    slot: u32,       // in the pool
+}
+
+@group(0) @binding(0) var<uniform> geometry: Geometry;
+@group(0) @binding(1) var<storage, read> tiles: array<Tile>;
+@group(0) @binding(2) var<storage, read> pool: array<vec4<f32>>; // height m, gradient x, gradient y, change of albedo
+
+const SIDE: u32 = 33u;
+const COARSE_SIDE: u32 = 17u;
+const TILE_VERTICES: u32 = 1378u; // 33 * 33 fine ones, then 17 * 17 as the next coarser level has them
+
+struct Varying {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) ground: vec3<f32>,
+    @location(1) depth: f32,
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) instance: u32) -> Varying {
+    let tile = tiles[instance];
+    let at = vec2(index % SIDE, index / SIDE);
+    let even = at & vec2(~1u);
+    let first = tile.slot * TILE_VERTICES;
+    let fine = pool[first + index];
+    let coarse = pool[first + SIDE * SIDE + (even.y / 2u) * COARSE_SIDE + even.x / 2u];
+
+    let fine_place = tile.base + vec2<f32>(at) * tile.spacing;
+    let coarse_place = tile.base + vec2<f32>(even) * tile.spacing;
+    let away = fine_place - geometry.camera_high.xy - geometry.camera_low.xy;
+    let distance = sqrt(dot(away, away) + geometry.level.x * geometry.level.x);
+    let reach = distance / (tile.spacing * geometry.level.y);
+    let morph = clamp((reach - geometry.level.z) / (geometry.level.w - geometry.level.z), 0.0, 1.0);
+
+    // Written out, for mix() may round differently at 1, and shared vertices have to agree bit for bit.
+    let place = fine_place * (1.0 - morph) + coarse_place * morph;
+    let ground = fine * (1.0 - morph) + coarse * morph;
+    let relative = (vec3(place, ground.x) - geometry.camera_high.xyz) - geometry.camera_low.xyz;
+    var out: Varying;
+    out.clip = geometry.clip_from_relative * vec4(relative, 1.0);
+    out.ground = ground.yzw;
+    out.depth = dot(geometry.forward.xyz, relative);
+    return out;
+}
+
+@fragment
+fn fragment(in: Varying) -> @location(0) vec4<f32> {
+    return vec4(in.ground, in.depth);
+}

@@ -1,0 +1,151 @@
+//! The last pass: from surface samples to radiance, depth and mask (`shaders/shading.wgsl`).
+
+use super::geometry_pass::{buffer, uniform_entry};
+use super::gpu_data::Shading;
+use super::read_back::ReadBack;
+use super::shadow::ShadowMap;
+use super::targets::{SampleTarget, cleared, texture};
+use super::{Gpu, RenderError, RenderedFrame};
+use wgpu::TextureFormat::{R8Uint, R32Float};
+
+/// The shader with the noise that it calls.
+pub(super) const SOURCE: &str =
+    concat!(include_str!("../../shaders/noise.wgsl"), include_str!("../../shaders/shading.wgsl"));
+
+/// Formats of radiance, depth and mask.
+const FORMATS: [(wgpu::TextureFormat, u32); 3] = [(R32Float, 4), (R32Float, 4), (R8Uint, 1)];
+
+#[derive(Debug)]
+pub(super) struct ShadingPass {
+    pipeline: wgpu::RenderPipeline,
+    uniform: wgpu::Buffer,
+    group: wgpu::BindGroup,
+    outputs: Vec<(wgpu::Texture, ReadBack)>,
+    size_px: (u32, u32),
+}
+
+impl ShadingPass {
+    /// `entry` is the shader's entry point: `terrain` or `body`.
+    pub(super) fn new(
+        gpu: &Gpu,
+        size_px: (u32, u32),
+        entry: &str,
+        inputs: (&SampleTarget, &SampleTarget, &ShadowMap),
+    ) -> Self {
+        let layout = group_layout(gpu);
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let uniform = buffer(gpu, size_of::<Shading>() as u64, usage);
+        let (picture, truth, shadow) = inputs;
+        let entries = [
+            uniform.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&picture.samples),
+            wgpu::BindingResource::TextureView(&truth.samples),
+            wgpu::BindingResource::TextureView(&shadow.view),
+            wgpu::BindingResource::Sampler(&shadow.sampler),
+        ];
+        let entries: Vec<_> =
+            (0..).zip(entries).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("shading"),
+            layout: &layout,
+            entries: &entries,
+        });
+        let output = |(format, bytes)| {
+            let target = texture(gpu, size_px, format, wgpu::TextureUsages::COPY_SRC);
+            (target, ReadBack::new(gpu, size_px.0, size_px.1, bytes))
+        };
+        let outputs = FORMATS.into_iter().map(output).collect();
+        ShadingPass { pipeline: pipeline(gpu, &layout, entry), uniform, group, outputs, size_px }
+    }
+
+    pub(super) fn record(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, shading: &Shading) {
+        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(shading));
+        let views: Vec<_> =
+            self.outputs.iter().map(|(t, _)| t.create_view(&wgpu::TextureViewDescriptor::default())).collect();
+        let attachments: Vec<_> = views.iter().map(|v| Some(cleared(v))).collect();
+        {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("shading"),
+                color_attachments: &attachments,
+                ..wgpu::RenderPassDescriptor::default()
+            });
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, &self.group, &[]);
+            pass.draw(0..3, 0..1);
+        }
+        for (texture, read_back) in &self.outputs {
+            read_back.copy_from(encoder, texture);
+        }
+    }
+
+    /// Waits for the adapter and fetches the picture.
+    pub(super) fn fetch(&self, gpu: &Gpu) -> Result<RenderedFrame, RenderError> {
+        self.outputs.iter().for_each(|(_, read_back)| read_back.request());
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| gpu.error("finish the picture", e))?;
+        let bytes = self.outputs.iter().map(|(_, r)| r.take(gpu)).collect::<Result<Vec<_>, _>>()?;
+        let depth = |d: f32| if d > 0.0 { d } else { f32::NAN };
+        Ok(RenderedFrame {
+            width_px: self.size_px.0,
+            height_px: self.size_px.1,
+            radiance: bytemuck::pod_collect_to_vec(&bytes[0]),
+            depth_m: bytemuck::pod_collect_to_vec::<u8, f32>(&bytes[1]).into_iter().map(depth).collect(),
+            mask: bytes[2].clone(),
+        })
+    }
+}
+
+fn group_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let entry =
+        |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::FRAGMENT, ty, count: None };
+    let image = |sample_type| wgpu::BindingType::Texture {
+        sample_type,
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let samples = image(wgpu::TextureSampleType::Float { filterable: false });
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("shading"),
+        entries: &[
+            uniform_entry(0, wgpu::ShaderStages::FRAGMENT),
+            entry(1, samples),
+            entry(2, samples),
+            entry(3, image(wgpu::TextureSampleType::Depth)),
+            entry(4, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison)),
+        ],
+    })
+}
+
+fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, entry: &str) -> wgpu::RenderPipeline {
+    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("shading"),
+        source: wgpu::ShaderSource::Wgsl(SOURCE.into()),
+    });
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("shading"),
+        bind_group_layouts: &[Some(layout)],
+        immediate_size: 0,
+    });
+    let targets = FORMATS.map(|(format, _)| Some(wgpu::ColorTargetState::from(format)));
+    let compilation_options = wgpu::PipelineCompilationOptions::default;
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("shading"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: compilation_options(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: None,
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some(entry),
+            compilation_options: compilation_options(),
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -1,0 +1,99 @@
+//! The shadow map: an orthographic picture of the surface from the Sun, fitted to what the camera sees.
+
+use super::Gpu;
+use super::geometry_pass::DEPTH_FORMAT;
+use nalgebra::{Matrix3, Matrix4, Unit, Vector3};
+
+/// The map's texture.
+#[derive(Debug)]
+pub(super) struct ShadowMap {
+    pub view: wgpu::TextureView,
+    pub sampler: wgpu::Sampler,
+    side_px: u32,
+}
+
+/// The box that the map covers: its centre relative to the camera, half its side, and half its depth, in m.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ShadowBox {
+    pub center_m: Vector3<f64>,
+    pub half_side_m: f64,
+    pub half_depth_m: f64,
+}
+
+impl ShadowMap {
+    pub(super) fn new(gpu: &Gpu, side_px: u32) -> Self {
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("shadow map"),
+            size: wgpu::Extent3d { width: side_px, height: side_px, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: DEPTH_FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("shadow map"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            compare: Some(wgpu::CompareFunction::LessEqual),
+            ..wgpu::SamplerDescriptor::default()
+        });
+        ShadowMap { view: texture.create_view(&wgpu::TextureViewDescriptor::default()), sampler, side_px }
+    }
+
+    /// Edge of a texel in m.
+    pub(super) fn texel_m(&self, covered: &ShadowBox) -> f64 {
+        2.0 * covered.half_side_m / f64::from(self.side_px)
+    }
+
+    pub(super) fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
+        let ops = wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store };
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("shadow map"),
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.view,
+                depth_ops: Some(ops),
+                stencil_ops: None,
+            }),
+            ..wgpu::RenderPassDescriptor::default()
+        })
+    }
+}
+
+/// Axes of the map in the reference frame, as rows; the third points away from the Sun.
+pub(super) fn shadow_axes(sun_in_reference: &Unit<Vector3<f64>>) -> Matrix3<f64> {
+    let away = -sun_in_reference.into_inner();
+    let helper = if away.z.abs() < 0.9 { Vector3::z() } else { Vector3::x() };
+    let right = helper.cross(&away).normalize();
+    let up = away.cross(&right);
+    Matrix3::from_rows(&[right.transpose(), up.transpose(), away.transpose()])
+}
+
+impl ShadowBox {
+    /// From places relative to the camera (reference axes) to the map's clip space; depth runs from 0 at the Sun to 1.
+    pub(super) fn clip_from_relative(&self, axes: &Matrix3<f64>) -> Matrix4<f64> {
+        let scale = Matrix3::from_diagonal(&Vector3::new(
+            1.0 / self.half_side_m,
+            1.0 / self.half_side_m,
+            0.5 / self.half_depth_m,
+        ));
+        let linear = scale * axes;
+        let offset = Vector3::new(0.0, 0.0, 0.5) - linear * self.center_m;
+        let mut clip = linear.to_homogeneous();
+        clip.fixed_view_mut::<3, 1>(0, 3).copy_from(&offset);
+        clip
+    }
+}
+
+/// From clip space to texture coordinates, y downwards, and depth.
+pub(super) fn texture_from_clip() -> Matrix4<f64> {
+    #[rustfmt::skip]
+    let matrix = Matrix4::new(
+        0.5, 0.0, 0.0, 0.5,
+        0.0, -0.5, 0.0, 0.5,
+        0.0, 0.0, 1.0, 0.0,
+        0.0, 0.0, 0.0, 1.0,
+    );
+    matrix
+}

@@ -1,0 +1,93 @@
+//! Chooses the tiles of a view: fine near the camera, coarse far away.
+//!
+//! Source: Strugar, "Continuous Distance-Dependent Level of Detail for Rendering Heightmaps", Journal of Graphics, GPU,
+//! and Game Tools 14(4), 2009. Distance is taken from the place on a plane `height_m` below the camera, so that it is
+//! the same for every vertex that tiles share.
+
+use super::terrain_tile::{COARSEST_LEVEL, FINEST_LEVEL, SIDE, TileKey};
+use crate::scene::Terrain;
+use nalgebra::{Vector2, Vector3};
+
+/// Least range over spacing for which a tile never borders on one two levels away.
+const LEAST_RANGE_OVER_SPACING: f64 = 160.0;
+/// A level's vertices have reached the coarser grid at this share of its range; the rest is a guard for rounding.
+const MORPH_END: f64 = 0.98;
+/// No ground departs more than this from the height at a tile's centre, per m of distance from it.
+const STEEPEST_MEAN: f64 = 0.4;
+/// No ground departs more than this from the height at a tile's centre, in m.
+const MOST_RELIEF_M: f64 = 400.0;
+
+/// Where levels begin and end.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LevelRange {
+    /// Height of the camera above the ground in m.
+    pub height_m: f64,
+    /// Distance up to which a level is used, over its spacing of vertices.
+    pub range_over_spacing: f64,
+    /// Share of a level's range at which its vertices begin to slide.
+    pub morph_start: f64,
+    /// Share of a level's range at which its vertices have become those of the coarser level.
+    pub morph_end: f64,
+}
+
+impl LevelRange {
+    pub(super) fn new(height_m: f64, focal_px: f64, vertex_spacing_px: f64) -> Self {
+        let range_over_spacing = (focal_px / vertex_spacing_px).max(LEAST_RANGE_OVER_SPACING);
+        let diagonal = (SIDE - 1) as f64 * std::f64::consts::SQRT_2;
+        let morph_start = 0.51 + diagonal / range_over_spacing;
+        LevelRange { height_m, range_over_spacing, morph_start, morph_end: MORPH_END }
+    }
+
+    fn range_m(&self, level: i32) -> f64 {
+        self.range_over_spacing * 2.0_f64.powi(level)
+    }
+}
+
+/// What has to be drawn: all that the camera sees and all that can throw a shadow into it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ViewVolume {
+    pub camera_in_site_m: Vector3<f64>,
+    /// Inward normals of the view's sides, in the site frame.
+    pub sides_in_site: [Vector3<f64>; 4],
+    /// How far a shadow reaches, in m along the light.
+    pub shadow_in_site_m: Vector3<f64>,
+}
+
+/// Tiles in a fixed order.
+pub(super) fn choose_tiles(terrain: &Terrain, volume: &ViewVolume, levels: &LevelRange) -> Vec<TileKey> {
+    let mut chosen = Vec::new();
+    for (x, y) in [(-1, -1), (0, -1), (-1, 0), (0, 0)] {
+        descend(TileKey { level: COARSEST_LEVEL, x, y }, terrain, volume, levels, &mut chosen);
+    }
+    chosen
+}
+
+fn descend(key: TileKey, terrain: &Terrain, volume: &ViewVolume, levels: &LevelRange, chosen: &mut Vec<TileKey>) {
+    if !touches(&key, terrain, volume) {
+        return;
+    }
+    let split = key.level > FINEST_LEVEL && nearest_m(&key, volume, levels) < levels.range_m(key.level - 1);
+    if split {
+        key.children().into_iter().for_each(|child| descend(child, terrain, volume, levels, chosen));
+    } else {
+        chosen.push(key);
+    }
+}
+
+fn nearest_m(key: &TileKey, volume: &ViewVolume, levels: &LevelRange) -> f64 {
+    let outside = |low: f64, at: f64| (low - at).max(at - low - key.edge_m()).max(0.0);
+    let [x_m, y_m] = key.corner_m();
+    let camera = &volume.camera_in_site_m;
+    Vector3::new(outside(x_m, camera.x), outside(y_m, camera.y), levels.height_m).norm()
+}
+
+fn touches(key: &TileKey, terrain: &Terrain, volume: &ViewVolume) -> bool {
+    let [x_m, y_m] = key.corner_m();
+    let half_m = 0.5 * key.edge_m();
+    let middle = Vector2::new(x_m + half_m, y_m + half_m);
+    let relief_m = (STEEPEST_MEAN * std::f64::consts::SQRT_2 * half_m).min(MOST_RELIEF_M);
+    let height_m = terrain.sample(middle.x, middle.y, &key.detail()).height_m;
+    let center = Vector3::new(middle.x, middle.y, height_m) - volume.camera_in_site_m + 0.5 * volume.shadow_in_site_m;
+    let half = Vector3::new(half_m, half_m, relief_m) + 0.5 * volume.shadow_in_site_m.abs();
+    volume.sides_in_site.iter().all(|n| n.dot(&center) + n.abs().dot(&half) >= 0.0)
+}

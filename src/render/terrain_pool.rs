@@ -1,0 +1,103 @@
+//! Terrain tiles on the adapter, kept from frame to frame.
+
+use super::geometry_pass::buffer;
+use super::terrain_tile::{TILE_VERTICES, TileKey, TileVertex};
+use super::{Gpu, RenderError};
+use crate::scene::Terrain;
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+const TILE_BYTES: u64 = (TILE_VERTICES * size_of::<TileVertex>()) as u64;
+const FIRST_CAPACITY: usize = 1024;
+
+#[derive(Debug, Clone, Copy)]
+struct Slot {
+    index: u32,
+    last_used: u64,
+}
+
+/// A pool of tiles; the one not used for longest makes room.
+#[derive(Debug)]
+pub(super) struct TilePool {
+    buffer: wgpu::Buffer,
+    capacity: usize,
+    slots: HashMap<TileKey, Slot>,
+    free: Vec<u32>,
+    frame: u64,
+}
+
+impl TilePool {
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        TilePool::with_capacity(gpu, FIRST_CAPACITY)
+    }
+
+    fn with_capacity(gpu: &Gpu, capacity: usize) -> Self {
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        TilePool {
+            buffer: buffer(gpu, TILE_BYTES * capacity as u64, usage),
+            capacity,
+            slots: HashMap::new(),
+            free: (0..capacity as u32).rev().collect(),
+            frame: 0,
+        }
+    }
+
+    pub(super) fn buffer(&self) -> &wgpu::Buffer {
+        &self.buffer
+    }
+
+    /// Tiles that the pool holds at once.
+    pub(super) fn capacity(&self) -> usize {
+        self.capacity
+    }
+
+    /// Makes all `keys` present and returns their slots. The buffer is a new one if they did not fit.
+    pub(super) fn place(&mut self, gpu: &Gpu, terrain: &Terrain, keys: &[TileKey]) -> Result<Vec<u32>, RenderError> {
+        if keys.len() > self.capacity {
+            let capacity = keys.len().next_power_of_two();
+            let limit = gpu.device.limits().max_storage_buffer_binding_size;
+            if TILE_BYTES * capacity as u64 > limit {
+                return Err(gpu.error(
+                    "hold the terrain of this view",
+                    format!("{} tiles are too many: raise render.vertex-spacing-px", keys.len()),
+                ));
+            }
+            *self = TilePool::with_capacity(gpu, capacity);
+        }
+        self.frame += 1;
+        let missing: Vec<TileKey> = keys.iter().filter(|key| !self.touch(key)).copied().collect();
+        self.make_room(missing.len());
+        let made: Vec<Vec<TileVertex>> = missing.par_iter().map(|key| key.vertices(terrain)).collect();
+        for (key, vertices) in missing.iter().zip(&made) {
+            let index = self.free.pop().expect("room was made for every tile");
+            gpu.queue.write_buffer(&self.buffer, TILE_BYTES * u64::from(index), bytemuck::cast_slice(vertices));
+            self.slots.insert(*key, Slot { index, last_used: self.frame });
+        }
+        Ok(keys.iter().map(|key| self.slots[key].index).collect())
+    }
+
+    fn touch(&mut self, key: &TileKey) -> bool {
+        match self.slots.get_mut(key) {
+            Some(slot) => {
+                slot.last_used = self.frame;
+                true
+            }
+            None => false,
+        }
+    }
+
+    fn make_room(&mut self, needed: usize) {
+        let lacking = needed.saturating_sub(self.free.len());
+        let mut idle: Vec<(u64, u32, TileKey)> = self
+            .slots
+            .iter()
+            .filter(|(_, slot)| slot.last_used < self.frame)
+            .map(|(key, slot)| (slot.last_used, slot.index, *key))
+            .collect();
+        idle.sort_unstable_by_key(|(last_used, index, _)| (*last_used, *index));
+        for (_, index, key) in idle.into_iter().take(lacking) {
+            self.slots.remove(&key);
+            self.free.push(index);
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Band-limited gradient noise on a hashed integer lattice, the building block of terrain and surface detail.
+//!
+//! The shader `shaders/noise.wgsl` computes the same function from the same integers, so that a picture's texture is
+//! known exactly on the CPU. Hash: pcg2d and pcg3d of Jarzynski and Olano, "Hash Functions for GPU Rendering", Journal
+//! of Computer Graphics Techniques 9(3), 2020. Interpolation: Perlin, "Improving Noise", SIGGRAPH 2002.
+
+use nalgebra::{Vector2, Vector3};
+
+/// R.m.s. value of [`noise_2d`]: gradients are uniform in [-1, 1] an axis.
+pub const NOISE_2D_RMS: f64 = 0.176_127_132_922_507_5;
+/// R.m.s. length of the gradient of [`noise_2d`], per lattice unit.
+pub const NOISE_2D_SLOPE_RMS: f64 = 0.721_216_505_236_793_3;
+/// R.m.s. value of [`noise_3d`].
+pub const NOISE_3D_RMS: f64 = 0.190_943_637_876_723_3;
+/// R.m.s. length of the gradient of [`noise_3d`] along a surface (two of its three axes), per lattice unit.
+pub const NOISE_3D_TANGENT_SLOPE_RMS: f64 = 0.704_412_230_018;
+
+/// Two independent noise fields at one point: relief with its gradient, and albedo.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoiseSample {
+    /// Value of the relief field.
+    pub relief: f64,
+    /// Gradient of the relief field per lattice unit (z is 0 in two dimensions).
+    pub relief_gradient: Vector3<f64>,
+    /// Value of the albedo field.
+    pub albedo: f64,
+}
+
+pub(super) fn pcg2d(x: u32, y: u32) -> [u32; 2] {
+    let (mut x, mut y) = (mix(x), mix(y));
+    x = x.wrapping_add(y.wrapping_mul(MULTIPLIER));
+    y = y.wrapping_add(x.wrapping_mul(MULTIPLIER));
+    x ^= x >> 16;
+    y ^= y >> 16;
+    x = x.wrapping_add(y.wrapping_mul(MULTIPLIER));
+    y = y.wrapping_add(x.wrapping_mul(MULTIPLIER));
+    [x ^ (x >> 16), y ^ (y >> 16)]
+}
+
+fn pcg3d(x: u32, y: u32, z: u32) -> [u32; 3] {
+    let (mut x, mut y, mut z) = (mix(x), mix(y), mix(z));
+    x = x.wrapping_add(y.wrapping_mul(z));
+    y = y.wrapping_add(z.wrapping_mul(x));
+    z = z.wrapping_add(x.wrapping_mul(y));
+    x ^= x >> 16;
+    y ^= y >> 16;
+    z ^= z >> 16;
+    x = x.wrapping_add(y.wrapping_mul(z));
+    y = y.wrapping_add(z.wrapping_mul(x));
+    z = z.wrapping_add(x.wrapping_mul(y));
+    [x, y, z]
+}
+
+const MULTIPLIER: u32 = 1_664_525;
+
+fn mix(v: u32) -> u32 {
+    v.wrapping_mul(MULTIPLIER).wrapping_add(1_013_904_223)
+}
+
+/// The lower and upper half of a hash, each mapped to [-1, 1].
+fn halves(h: u32) -> [f64; 2] {
+    [f64::from(h & 0xffff) / 32767.5 - 1.0, f64::from(h >> 16) / 32767.5 - 1.0]
+}
+
+fn fade(t: f64) -> f64 {
+    t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
+}
+
+fn fade_slope(t: f64) -> f64 {
+    30.0 * t * t * (t - 1.0) * (t - 1.0)
+}
+
+/// Cell of a lattice coordinate, wrapped to 32 bits as the shader does, and the fraction inside it.
+fn split(lattice: f64) -> (u32, f64) {
+    let cell = lattice.floor();
+    ((cell as i64) as u32, lattice - cell)
+}
+
+/// Gradient noise in two dimensions at a point in lattice units.
+pub fn noise_2d(at: &Vector2<f64>, seed: u32) -> NoiseSample {
+    let ((ix, fx), (iy, fy)) = (split(at.x), split(at.y));
+    let (ux, uy, dx, dy) = (fade(fx), fade(fy), fade_slope(fx), fade_slope(fy));
+    let mut sample = NoiseSample { relief: 0.0, relief_gradient: Vector3::zeros(), albedo: 0.0 };
+    for corner in 0..4_u32 {
+        let (cx, cy) = (corner & 1, corner >> 1);
+        let hash = pcg2d(ix.wrapping_add(cx) ^ seed, iy.wrapping_add(cy));
+        let (px, py) = (fx - f64::from(cx), fy - f64::from(cy));
+        let (wx, wy) = (if cx == 1 { ux } else { 1.0 - ux }, if cy == 1 { uy } else { 1.0 - uy });
+        let (sx, sy) = (if cx == 1 { dx } else { -dx }, if cy == 1 { dy } else { -dy });
+        let [gx, gy] = halves(hash[0]);
+        let value = gx * px + gy * py;
+        sample.relief += value * wx * wy;
+        sample.relief_gradient.x += wy * (gx * wx + value * sx);
+        sample.relief_gradient.y += wx * (gy * wy + value * sy);
+        let [ax, ay] = halves(hash[1]);
+        sample.albedo += (ax * px + ay * py) * wx * wy;
+    }
+    sample
+}
+
+/// Gradient noise in three dimensions at a point in lattice units.
+pub fn noise_3d(at: &Vector3<f64>, seed: u32) -> NoiseSample {
+    let cells = [split(at.x), split(at.y), split(at.z)];
+    let mut sample = NoiseSample { relief: 0.0, relief_gradient: Vector3::zeros(), albedo: 0.0 };
+    for corner in 0..8_u32 {
+        let upper = [corner & 1, (corner >> 1) & 1, corner >> 2];
+        let index = |axis: usize| cells[axis].0.wrapping_add(upper[axis]);
+        let hash = pcg3d(index(0) ^ seed, index(1), index(2));
+        let from_corner = Vector3::from_fn(|axis, _| cells[axis].1 - f64::from(upper[axis]));
+        let side = |axis: usize, low: f64, high: f64| if upper[axis] == 1 { high } else { low };
+        let weight = Vector3::from_fn(|a, _| side(a, 1.0 - fade(cells[a].1), fade(cells[a].1)));
+        let slope = Vector3::from_fn(|a, _| side(a, -fade_slope(cells[a].1), fade_slope(cells[a].1)));
+        let ([gx, gy], [gz, az], [ax, ay]) = (halves(hash[0]), halves(hash[1]), halves(hash[2]));
+        let gradient = Vector3::new(gx, gy, gz);
+        let value = gradient.dot(&from_corner);
+        let others = Vector3::new(weight.y * weight.z, weight.x * weight.z, weight.x * weight.y);
+        let product = weight.x * others.x;
+        sample.relief += value * product;
+        sample.relief_gradient += gradient * product + value * slope.component_mul(&others);
+        sample.albedo += Vector3::new(ax, ay, az).dot(&from_corner) * product;
+    }
+    sample
+}

@@ -1,0 +1,123 @@
+//! Parameters of procedural terrain.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// A parameter of the terrain outside its range.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("terrain.{key} is {value}: it must be {range}")]
+pub struct TerrainConfigError {
+    /// Key as in the scenario file.
+    pub key: &'static str,
+    /// The value found.
+    pub value: f64,
+    /// What it may be.
+    pub range: &'static str,
+}
+
+/// Procedural terrain around the landing point.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TerrainConfig {
+    /// Largest wavelength of the fractal relief in m (default 6000).
+    pub largest_wavelength_m: f64,
+    /// Smallest wavelength of the fractal relief in m (default 0.02).
+    pub smallest_wavelength_m: f64,
+    /// Hurst exponent of the relief, 0 to 1 (default 0.8).
+    pub hurst: f64,
+    /// R.m.s. slope of the relief of all wavelengths down to `slope_scale_m`, rise over run (default 0.09).
+    pub rms_slope: f64,
+    /// Wavelength in m that `rms_slope` is stated at (default 1).
+    pub slope_scale_m: f64,
+    /// Mean albedo, 0 to 1 (default 0.2).
+    pub albedo: f64,
+    /// Relative r.m.s. variation of the albedo, per octave (default 0.025).
+    pub albedo_contrast: f64,
+    /// Probability of each crater that a cell of the crater grid can hold, for the smallest craters, 0 (none) to 1 (default
+    /// 0.5).
+    pub crater_density: f64,
+    /// Smallest crater diameter in m (default 0.3).
+    pub smallest_crater_m: f64,
+    /// Largest crater diameter in m (default 800).
+    pub largest_crater_m: f64,
+    /// Exponent b of the number of craters larger than a diameter, N(>D) ~ D^-b (default 2).
+    pub crater_exponent: f64,
+    /// Depth over diameter of a fresh crater (default 0.2).
+    pub crater_depth_ratio: f64,
+    /// Probability of each rock that a cell of the rock grid can hold, for the smallest rocks, 0 (none) to 1 (default 0.35).
+    pub rock_density: f64,
+    /// Smallest rock in m (default 0.06).
+    pub smallest_rock_m: f64,
+    /// Largest rock in m (default 4).
+    pub largest_rock_m: f64,
+    /// Exponent b of the number of rocks larger than a length, N(>D) ~ D^-b (default 2.4).
+    pub rock_exponent: f64,
+    /// No crater is deeper and no rock higher than this times its distance from the landing point (default 0.05).
+    pub site_slope: f64,
+}
+
+impl Default for TerrainConfig {
+    fn default() -> Self {
+        TerrainConfig {
+            largest_wavelength_m: 6000.0,
+            smallest_wavelength_m: 0.02,
+            hurst: 0.8,
+            rms_slope: 0.09,
+            slope_scale_m: 1.0,
+            albedo: 0.2,
+            albedo_contrast: 0.025,
+            crater_density: 0.5,
+            smallest_crater_m: 0.3,
+            largest_crater_m: 800.0,
+            crater_exponent: 2.0,
+            crater_depth_ratio: 0.2,
+            rock_density: 0.35,
+            smallest_rock_m: 0.06,
+            largest_rock_m: 4.0,
+            rock_exponent: 2.4,
+            site_slope: 0.05,
+        }
+    }
+}
+
+impl TerrainConfig {
+    /// Checks every parameter's range.
+    ///
+    /// # Errors
+    /// Names the first key outside its range.
+    pub fn validate(&self) -> Result<(), TerrainConfigError> {
+        let ranges = [
+            ("largest_wavelength_m", self.largest_wavelength_m, 1.0, 1e5, "1 to 100000 m"),
+            ("smallest_wavelength_m", self.smallest_wavelength_m, 1e-3, 1e3, "0.001 to 1000 m"),
+            ("hurst", self.hurst, 0.0, 1.0, "0 to 1"),
+            ("rms_slope", self.rms_slope, 0.0, 1.0, "0 to 1"),
+            ("slope_scale_m", self.slope_scale_m, 1e-3, 1e5, "0.001 to 100000 m"),
+            ("albedo", self.albedo, 0.0, 1.0, "0 to 1"),
+            ("albedo_contrast", self.albedo_contrast, 0.0, 0.3, "0 to 0.3"),
+            ("crater_density", self.crater_density, 0.0, 1.0, "0 to 1"),
+            ("smallest_crater_m", self.smallest_crater_m, 0.01, 1e4, "0.01 to 10000 m"),
+            ("largest_crater_m", self.largest_crater_m, 0.01, 1e4, "0.01 to 10000 m"),
+            ("crater_exponent", self.crater_exponent, 0.5, 5.0, "0.5 to 5"),
+            ("crater_depth_ratio", self.crater_depth_ratio, 0.0, 0.4, "0 to 0.4"),
+            ("rock_density", self.rock_density, 0.0, 1.0, "0 to 1"),
+            ("smallest_rock_m", self.smallest_rock_m, 0.01, 100.0, "0.01 to 100 m"),
+            ("largest_rock_m", self.largest_rock_m, 0.01, 100.0, "0.01 to 100 m"),
+            ("rock_exponent", self.rock_exponent, 0.5, 5.0, "0.5 to 5"),
+            ("site_slope", self.site_slope, 0.0, 1.0, "0 to 1"),
+        ];
+        for (key, value, low, high, range) in ranges {
+            if !(low..=high).contains(&value) {
+                return Err(TerrainConfigError { key, value, range });
+            }
+        }
+        if self.smallest_wavelength_m > self.largest_wavelength_m {
+            let value = self.smallest_wavelength_m;
+            return Err(TerrainConfigError {
+                key: "smallest_wavelength_m",
+                value,
+                range: "below largest_wavelength_m",
+            });
+        }
+        Ok(())
+    }
+}
