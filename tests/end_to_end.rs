@@ -2,8 +2,8 @@
 
 use opnav::evaluation::Metrics;
 use opnav::pipeline::{
-    CameraSource, Estimator, FrontEndConfig, FrontEndMode, LandRequest, LandingConfig, Silent, SynthesizeRequest, TumbleRequest,
-    TumblingConfig, evaluate_result, land, synthesize, tumble,
+    CameraSource, Estimator, FrontEndConfig, FrontEndMode, LandRequest, LandingConfig, Silent, SynthesizeRequest,
+    TumbleRequest, TumblingConfig, evaluate_result, land, synthesize, tumble,
 };
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;

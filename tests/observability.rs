@@ -9,7 +9,12 @@ fn principal(j: [f64; 3]) -> InertiaRatios {
     InertiaRatios([j[0] / j[2], j[1] / j[2], 0.0, 0.0, 0.0])
 }
 
-fn ranks(attitude: UnitQuaternion<f64>, rate: [f64; 3], inertia: &InertiaRatios, order: usize) -> Vec<ObservabilityRank> {
+fn ranks(
+    attitude: UnitQuaternion<f64>,
+    rate: [f64; 3],
+    inertia: &InertiaRatios,
+    order: usize,
+) -> Vec<ObservabilityRank> {
     let state = SpinState { asteroid_from_inertial: attitude, rate_in_asteroid_rad_s: Vector3::from(rate) };
     rank_by_order(&lie_derivatives(&state, inertia, order).unwrap())
 }
@@ -43,8 +48,17 @@ fn ranks_by_order_follow_the_exact_ones() {
 #[test]
 fn singular_values_of_the_papers_case() {
     let expected = [
-        1.153880927, 1.150140876, 1.008764957, 0.5176927282, 0.4508358405, 0.4419192279, 0.2944349703, 0.1323276688,
-        0.0211379186, 0.01407170818, 8.891680583e-4,
+        1.153880927,
+        1.150140876,
+        1.008764957,
+        0.5176927282,
+        0.4508358405,
+        0.4419192279,
+        0.2944349703,
+        0.1323276688,
+        0.0211379186,
+        0.01407170818,
+        8.891680583e-4,
     ];
     let found = ranks(UnitQuaternion::identity(), paper_rate(), &PAPER, 4);
     for (i, &value) in expected.iter().enumerate() {
@@ -52,8 +66,17 @@ fn singular_values_of_the_papers_case() {
     }
     let q = UnitQuaternion::from_quaternion(Quaternion::new(4.0, -1.0, -2.0, -2.0));
     let expected = [
-        1.177706363, 1.149725144, 1.056739881, 0.495179156, 0.4349874019, 0.4032570396, 0.2721611539, 0.1282449485,
-        0.02060594552, 0.0135287325, 8.933485177e-4,
+        1.177706363,
+        1.149725144,
+        1.056739881,
+        0.495179156,
+        0.4349874019,
+        0.4032570396,
+        0.2721611539,
+        0.1282449485,
+        0.02060594552,
+        0.0135287325,
+        8.933485177e-4,
     ];
     let found = ranks(q, paper_rate(), &PAPER, 4);
     for (i, &value) in expected.iter().enumerate() {

@@ -1,9 +1,30 @@
 //! What exists, on the CPU in f64: scenario, terrain, bodies, motion, IMU.
+//!
+//! A [`Scenario`] is read from a TOML file and builds a [`Scene`]: either a [`DescentScene`] (ground, a lander on its
+//! path, inertial measurements) or a [`TumblingScene`] (a small body and its motion). Both list the [`View`]s to take a
+//! picture of and carry their exact truth. Every setting has a documented default, its unit in its name, and one
+//! `validate()`; unknown keys are refused.
 
+mod body_crater;
+mod body_relief;
+mod body_shape;
+mod body_source;
+mod camera_config;
 mod crater;
+mod descent;
+mod error;
+mod icosphere;
+mod imager;
+mod limits;
+mod mass_properties;
 mod mesh;
+mod mesh_landmarks;
+mod mesh_topology;
 mod noise;
 mod noise_octave;
+mod obj;
+mod scenario;
+mod scenario_file;
 mod sensor_config;
 mod small_body;
 mod terrain;
@@ -11,18 +32,26 @@ mod terrain_config;
 mod terrain_ray;
 mod terrain_rock;
 mod terrain_scatter;
+mod tumbling;
 mod view;
 
+pub use body_shape::{ProceduralBody};
+pub use body_source::{BodySource, MeshFile};
+pub use camera_config::{CameraConfig};
 pub use crater::{CraterClass, FeatureSample};
-pub use mesh::Mesh;
-pub use noise::{
-    NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseSample, noise_2d, noise_3d,
-};
+pub use descent::{CameraMountConfig, DescentConfig, DescentMotion, DescentScene, FrameSchedule, GuidanceConfig, GuidanceProfile, ImuConfig, InitialErrorConfig, PolynomialGuidance, SunConfig, ideal_samples};
+pub use error::{SceneError};
+pub use imager::{Imager};
+pub use mass_properties::{MassProperties};
+pub use mesh::{Mesh};
+pub use noise::{NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseSample, noise_2d, noise_3d};
 pub use noise_octave::{NoiseOctave, OctaveStrength};
+pub use scenario::{Mission, Scenario, Scene};
 pub use sensor_config::{Exposure, SensorConfig};
-pub use small_body::{BodySurface, SmallBody};
+pub use small_body::{BodySurface, SmallBody, SurfaceConfig};
 pub use terrain::{GroundDetail, GroundSample, Terrain};
 pub use terrain_config::{TerrainConfig, TerrainConfigError};
-pub use terrain_rock::RockClass;
+pub use terrain_rock::{RockClass};
 pub use terrain_scatter::{Feature, Scatter};
-pub use view::View;
+pub use tumbling::{InertiaSource, PhaseConfig, RigidBody, Spin, TumblingConfig, TumblingScene};
+pub use view::{View};

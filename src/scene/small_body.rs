@@ -1,11 +1,11 @@
 //! A small body: its shape and how its surface looks.
 
-use super::Mesh;
+use super::{Mesh, SceneError, limits};
 use serde::{Deserialize, Serialize};
 
 /// How a small body's surface looks below the resolution of its mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(default, deny_unknown_fields)]
 pub struct BodySurface {
     /// Seed of the detail.
     pub seed: u64,
@@ -15,7 +15,7 @@ pub struct BodySurface {
     pub albedo_contrast: f64,
     /// Largest wavelength of the detail in m.
     pub detail_wavelength_m: f64,
-    /// R.m.s. slope of the bump detail.
+    /// R.m.s. slope of the bump detail, rise over run.
     pub detail_slope: f64,
 }
 
@@ -25,7 +25,57 @@ impl Default for BodySurface {
     }
 }
 
-/// A small body in asteroid axes.
+/// The surface of any body, whatever its size: the largest wavelength of the detail follows from the mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SurfaceConfig {
+    /// Mean albedo, 0 to 1 (default 0.12).
+    pub albedo: f64,
+    /// Relative r.m.s. variation of the albedo, per octave of detail (default 0.06).
+    pub albedo_contrast: f64,
+    /// Largest wavelength of the detail, in mean edges of the mesh (default 12).
+    pub detail_wavelength_edges: f64,
+    /// R.m.s. slope of the bump detail, rise over run (default 0.25).
+    pub detail_slope: f64,
+}
+
+impl Default for SurfaceConfig {
+    fn default() -> Self {
+        let surface = BodySurface::default();
+        SurfaceConfig {
+            albedo: surface.albedo,
+            albedo_contrast: surface.albedo_contrast,
+            detail_wavelength_edges: 12.0,
+            detail_slope: surface.detail_slope,
+        }
+    }
+}
+
+impl SurfaceConfig {
+    /// The surface of a body with this mesh.
+    pub fn on(&self, mesh: &Mesh, seed: u64) -> BodySurface {
+        BodySurface {
+            seed,
+            albedo: self.albedo,
+            albedo_contrast: self.albedo_contrast,
+            detail_wavelength_m: self.detail_wavelength_edges * mesh.mean_edge_m(),
+            detail_slope: self.detail_slope,
+        }
+    }
+
+    /// Checks every setting's range.
+    ///
+    /// # Errors
+    /// Names the first key outside its range.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        limits::within("albedo", self.albedo, 0.001, 1.0)?;
+        limits::within("albedo_contrast", self.albedo_contrast, 0.0, 1.0)?;
+        limits::within("detail_wavelength_edges", self.detail_wavelength_edges, 0.01, 1000.0)?;
+        limits::within("detail_slope", self.detail_slope, 0.0, 2.0)
+    }
+}
+
+/// A small body in asteroid axes, its centre of mass at the origin.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SmallBody {
     /// Shape in the asteroid frame, m.

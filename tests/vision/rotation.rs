@@ -45,8 +45,12 @@ fn table_of_errors_over_bound() {
             for hint in [false, true] {
                 let t = std::time::Instant::now();
                 let (ratio, nees, ok) = against_bound(|seed| descent(200, relief, seed), sigma, hint, 40);
-                let bound = if relief > 0.0 { median_angle_deg(&descent(200, relief, 0).bound(sigma, 40)) } else { 0.0 };
-                println!("{name} {sigma} hint {hint}: bound {bound:.4} ratio {ratio:.2} nees {nees:.2} ok {ok}/40 {:?}", t.elapsed() / 40);
+                let bound =
+                    if relief > 0.0 { median_angle_deg(&descent(200, relief, 0).bound(sigma, 40)) } else { 0.0 };
+                println!(
+                    "{name} {sigma} hint {hint}: bound {bound:.4} ratio {ratio:.2} nees {nees:.2} ok {ok}/40 {:?}",
+                    t.elapsed() / 40
+                );
             }
         }
     }
@@ -68,12 +72,22 @@ fn debug_pairs() {
             let pair = scene.matches(sigma, 0.2, seed);
             for (k, h) in [PairHints::default(), prior(&scene)].into_iter().enumerate() {
                 let s = solve(&scene, &pair, &h);
-                if s.status != PairStatus::Ok { continue; }
+                if s.status != PairStatus::Ok {
+                    continue;
+                }
                 let d = so3::log(&(scene.rotation * s.camera_to_from_camera_from.inverse()));
                 let nees = d.dot(&(s.covariance_rad2.try_inverse().unwrap() * d)) / 3.0;
                 let sg = s.covariance_rad2.diagonal().map(|v| v.sqrt().to_degrees());
                 if nees > 4.0 {
-                    println!("{relief} {sigma} {seed} hint {k} nees {nees:.1} {:?} err {:.4} sigma {:.4?} inl {} scale {:.3} dir {:.3?}", s.model, d.norm().to_degrees(), sg.as_slice(), s.inlier_count(), s.noise_scale, s.direction_in_to.map(|d| d.into_inner()).unwrap().as_slice());
+                    println!(
+                        "{relief} {sigma} {seed} hint {k} nees {nees:.1} {:?} err {:.4} sigma {:.4?} inl {} scale {:.3} dir {:.3?}",
+                        s.model,
+                        d.norm().to_degrees(),
+                        sg.as_slice(),
+                        s.inlier_count(),
+                        s.noise_scale,
+                        s.direction_in_to.map(|d| d.into_inner()).unwrap().as_slice()
+                    );
                 }
             }
         }

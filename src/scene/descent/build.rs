@@ -1,0 +1,111 @@
+//! From settings to a descent scene.
+
+use super::landmarks::landmarks_around_site;
+use super::{DescentConfig, DescentMotion, PolynomialGuidance};
+use crate::dataset::truth::{LanderState, Landmark};
+use crate::dataset::{CameraSensor, DesignatedPoint, ImuNoise, ImuSample, InitialState};
+use crate::geometry::Camera;
+use crate::scene::{Imager, SceneError, SensorConfig, Terrain, View};
+use nalgebra::{Isometry3, Point3};
+
+/// A descent: the ground, the pictures to take, and what the lander measures and believes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DescentScene {
+    /// The ground in the site frame.
+    pub terrain: Terrain,
+    /// One view a picture, in the site frame.
+    pub views: Vec<View>,
+    /// True states at t = 0 and at every inertial sample, up to touchdown.
+    pub lander_states: Vec<LanderState>,
+    /// Inertial samples up to touchdown, the first one interval after t = 0.
+    pub imu: Vec<ImuSample>,
+    /// The inertial measurement unit's data sheet.
+    pub imu_noise: ImuNoise,
+    /// What the lander believes at the first picture.
+    pub initial: InitialState,
+    /// Measured pixel of the site's origin in the first picture.
+    pub designated: DesignatedPoint,
+    /// The camera, in lander axes.
+    pub sensor: CameraSensor,
+    /// The detector.
+    pub sensor_model: SensorConfig,
+    /// Points on the ground, in the site frame; the first is the site's origin.
+    pub landmarks: Vec<Landmark>,
+}
+
+impl DescentScene {
+    /// Scene of a configuration that [`DescentConfig::validate`] accepts.
+    ///
+    /// # Errors
+    /// Names the key at fault if no schedule fits, if the camera would be in the ground, or if it does not see the site
+    /// in the first picture.
+    pub fn new(config: &DescentConfig, imager: &Imager, seed: u64) -> Result<DescentScene, SceneError> {
+        let path = PolynomialGuidance::new(&config.guidance);
+        let motion = DescentMotion::new(path);
+        let terrain = Terrain::new(&config.terrain, seed);
+        let interval_ns = config.imu.interval_ns();
+        let end_ns = (config.guidance.duration_s * 1e9).round() as i64;
+        let times_ns =
+            config.schedule.times_ns(&path, interval_ns).map_err(|e| e.under("schedule").under("descent"))?;
+        let site_in_lander_m = motion.state(0).site_from_lander.inverse_transform_point(&Point3::origin()).coords;
+        let lander_from_camera = config.camera_mount.lander_from_camera(&site_in_lander_m);
+        let sensor = CameraSensor {
+            camera: imager.camera,
+            spacecraft_from_camera: lander_from_camera,
+            rate_hz: config.schedule.rate_hz(),
+        };
+        let sun_in_reference = config.sun.sun_in_site();
+        let view = |t_ns: &i64| View {
+            t_ns: *t_ns,
+            reference_from_camera: motion.state(*t_ns).site_from_lander * lander_from_camera,
+            sun_in_reference,
+        };
+        let views: Vec<View> = times_ns.iter().map(view).collect();
+        check_above_ground(&views, &terrain)?;
+        let first = &views[0];
+        let designated = designated(config, &imager.camera, first, seed)?;
+        Ok(DescentScene {
+            lander_states: (0..=end_ns / interval_ns).map(|index| motion.state(index * interval_ns)).collect(),
+            imu: config.imu.samples(&motion, end_ns, seed),
+            imu_noise: config.imu.noise(),
+            initial: config.initial_error.initial_state(&motion.state(first.t_ns), seed),
+            designated,
+            sensor,
+            sensor_model: imager.detector,
+            landmarks: landmarks_around_site(&terrain, config.landmarks, path.position_in_site_m(0.0).norm()),
+            terrain,
+            views,
+        })
+    }
+}
+
+fn designated(config: &DescentConfig, camera: &Camera, first: &View, seed: u64) -> Result<DesignatedPoint, SceneError> {
+    let site_in_camera_m = first.reference_from_camera.inverse_transform_point(&Point3::origin()).coords;
+    let pixel_px = camera.project(&site_in_camera_m).filter(|pixel| camera.contains(pixel, 0.0)).ok_or_else(|| {
+        let off_axis_deg = site_in_camera_m.xy().norm().atan2(site_in_camera_m.z).to_degrees();
+        let cure = format!(
+            "the first picture does not show the landing site, {off_axis_deg:.1}° off the optical axis: widen \
+             camera.fov_deg or turn the camera with this key"
+        );
+        SceneError::out_of_range("descent.camera_mount.cant_deg", config.camera_mount.cant_deg, cure)
+    })?;
+    Ok(config.initial_error.designated(first.t_ns, &pixel_px, seed))
+}
+
+fn check_above_ground(views: &[View], terrain: &Terrain) -> Result<(), SceneError> {
+    let clearance_m = |pose: &Isometry3<f64>| {
+        let p = pose.translation.vector;
+        p.z - terrain.height_m(p.x, p.y)
+    };
+    match views.iter().map(|v| (v.t_ns, clearance_m(&v.reference_from_camera))).find(|(_, height_m)| *height_m < 0.1) {
+        None => Ok(()),
+        Some((t_ns, height_m)) => {
+            let cure = format!(
+                "the camera would be {height_m:.1} m above the ground at t = {:.2} s: make the terrain flatter or end \
+                 the pictures higher (end_height_m)",
+                t_ns as f64 * 1e-9
+            );
+            Err(SceneError::out_of_range("descent.terrain", "too high", cure))
+        }
+    }
+}

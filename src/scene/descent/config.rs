@@ -1,0 +1,62 @@
+//! Settings of a descent.
+
+use super::{
+    CameraMountConfig, FrameSchedule, GuidanceConfig, ImuConfig, InitialErrorConfig, PolynomialGuidance, SunConfig,
+};
+use crate::scene::{SceneError, TerrainConfig, limits};
+use serde::{Deserialize, Serialize};
+
+/// A powered descent to a landing site.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DescentConfig {
+    /// Number of landmarks on the ground for the ground truth (default 200), the site's origin included.
+    pub landmarks: usize,
+    /// When pictures are taken (default: once a second).
+    pub schedule: FrameSchedule,
+    /// The path.
+    pub guidance: GuidanceConfig,
+    /// How the camera is mounted.
+    pub camera_mount: CameraMountConfig,
+    /// The inertial measurement unit.
+    pub imu: ImuConfig,
+    /// Errors of what the lander believes at the first picture.
+    pub initial_error: InitialErrorConfig,
+    /// Direction to the Sun.
+    pub sun: SunConfig,
+    /// The ground.
+    pub terrain: TerrainConfig,
+}
+
+impl Default for DescentConfig {
+    fn default() -> Self {
+        DescentConfig {
+            landmarks: 200,
+            schedule: FrameSchedule::default(),
+            guidance: GuidanceConfig::default(),
+            camera_mount: CameraMountConfig::default(),
+            imu: ImuConfig::default(),
+            initial_error: InitialErrorConfig::default(),
+            sun: SunConfig::default(),
+            terrain: TerrainConfig::default(),
+        }
+    }
+}
+
+impl DescentConfig {
+    /// Checks every setting's range.
+    ///
+    /// # Errors
+    /// Names the first key outside its range.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        limits::count("landmarks", self.landmarks, 0, 100_000)?;
+        self.guidance.validate().map_err(|e| e.under("guidance"))?;
+        let path = PolynomialGuidance::new(&self.guidance);
+        self.schedule.validate(&path).map_err(|e| e.under("schedule"))?;
+        self.camera_mount.validate().map_err(|e| e.under("camera_mount"))?;
+        self.imu.validate().map_err(|e| e.under("imu"))?;
+        self.initial_error.validate().map_err(|e| e.under("initial_error"))?;
+        self.sun.validate().map_err(|e| e.under("sun"))?;
+        self.terrain.validate().map_err(|e| SceneError::from(e).under("terrain"))
+    }
+}

@@ -1,0 +1,23 @@
+//! A powered descent to a landing site: guidance, attitude, inertial measurements, when pictures are taken, and what the
+//! lander believes at the start.
+
+mod build;
+mod camera_mount;
+mod config;
+mod guidance;
+mod imu_simulation;
+mod initial_error;
+mod landmarks;
+mod motion;
+mod schedule;
+mod sun;
+
+pub use build::DescentScene;
+pub use camera_mount::CameraMountConfig;
+pub use config::DescentConfig;
+pub use guidance::{GuidanceConfig, GuidanceProfile, PolynomialGuidance};
+pub use imu_simulation::{ImuConfig, ideal_samples};
+pub use initial_error::InitialErrorConfig;
+pub use motion::DescentMotion;
+pub use schedule::FrameSchedule;
+pub use sun::SunConfig;

@@ -1,0 +1,108 @@
+//! A scenario: everything that makes a scene, with every default filled in.
+
+use super::scenario_file::ScenarioFile;
+use super::{
+    CameraConfig, DescentConfig, DescentScene, Imager, SceneError, SensorConfig, TumblingConfig, TumblingScene, limits,
+};
+use std::path::Path;
+
+/// What happens in a scenario.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Mission {
+    /// A powered descent to a landing site: the table `[descent]`.
+    Descent(DescentConfig),
+    /// A tumbling small body: the table `[tumbling]`.
+    Tumbling(TumblingConfig),
+}
+
+/// A scenario.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scenario {
+    /// Seed of everything random, 0 to 2⁶³-1 (default 1).
+    pub seed: u64,
+    /// The camera: the table `[camera]`.
+    pub camera: CameraConfig,
+    /// The detector: the table `[sensor]`.
+    pub sensor: SensorConfig,
+    /// What happens.
+    pub mission: Mission,
+}
+
+/// A scene that a scenario describes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Scene {
+    /// A powered descent.
+    Descent(Box<DescentScene>),
+    /// A tumbling small body.
+    Tumbling(Box<TumblingScene>),
+}
+
+impl Scenario {
+    /// Reads a scenario file and applies overrides of the form `table.key=value`, each value in TOML's notation (quotes
+    /// may be left out around text).
+    ///
+    /// # Errors
+    /// Names the file and the key of what is missing, unknown, of the wrong type or out of range.
+    pub fn read(path: &Path, overrides: &[String]) -> Result<Scenario, SceneError> {
+        let text = std::fs::read_to_string(path).map_err(|source| SceneError::Io {
+            action: "read the scenario",
+            path: path.into(),
+            source,
+        })?;
+        Scenario::parse(&text, path, overrides)
+    }
+
+    /// Reads a scenario from text; `path` is what errors name.
+    ///
+    /// # Errors
+    /// As [`Scenario::read`].
+    pub fn parse(text: &str, path: &Path, overrides: &[String]) -> Result<Scenario, SceneError> {
+        let scenario = ScenarioFile::parse(text, path, overrides)?.resolve(path)?;
+        scenario.validate().map_err(|e| e.in_file(path))?;
+        Ok(scenario)
+    }
+
+    /// The scenario as a file with every key; it reads back equal.
+    pub fn to_toml(&self) -> String {
+        ScenarioFile::from(self).to_toml()
+    }
+
+    /// Checks every setting's range.
+    ///
+    /// # Errors
+    /// Names the first key outside its range.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        if i64::try_from(self.seed).is_err() {
+            return Err(SceneError::out_of_range("seed", self.seed, "it must be below 9223372036854775808"));
+        }
+        self.camera.validate().map_err(|e| e.under("camera"))?;
+        self.sensor.validate().map_err(|e| e.under("sensor"))?;
+        match &self.mission {
+            Mission::Descent(descent) => descent.validate().map_err(|e| e.under("descent")),
+            Mission::Tumbling(tumbling) => {
+                let half_side_px = 0.5 * f64::from(self.camera.width_px.min(self.camera.height_px));
+                for offset_px in tumbling.center_offset_px {
+                    limits::within("tumbling.center_offset_px", offset_px, -half_side_px, half_side_px)?;
+                }
+                tumbling.validate().map_err(|e| e.under("tumbling"))
+            }
+        }
+    }
+
+    /// Builds the scene; relative paths of shapes start at `base_folder`, the folder of the scenario file.
+    ///
+    /// # Errors
+    /// Names the key or the shape file at fault.
+    pub fn build(&self, base_folder: &Path) -> Result<Scene, SceneError> {
+        self.validate()?;
+        let imager = Imager { camera: self.camera.camera(), detector: self.sensor };
+        match &self.mission {
+            Mission::Descent(descent) => {
+                DescentScene::new(descent, &imager, self.seed).map(|s| Scene::Descent(Box::new(s)))
+            }
+            Mission::Tumbling(tumbling) => {
+                TumblingScene::new(tumbling, &imager, self.seed, base_folder).map(|s| Scene::Tumbling(Box::new(s)))
+            }
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Scenario files: TOML with defaults, overrides, and errors that name file and key.
+
+use super::{CameraConfig, DescentConfig, Mission, Scenario, SceneError, SensorConfig, TumblingConfig};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+use toml::{Table, Value};
+
+const DESCENT_FOV_DEG: f64 = 90.0;
+const TUMBLING_FOV_DEG: f64 = 30.0;
+
+/// A scenario as it stands in a file.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ScenarioFile {
+    #[serde(default = "first_seed")]
+    seed: u64,
+    #[serde(default)]
+    camera: CameraTable,
+    #[serde(default)]
+    sensor: SensorConfig,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    descent: Option<DescentConfig>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tumbling: Option<TumblingConfig>,
+}
+
+/// The camera as it stands in a file: the default field of view depends on the mission.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct CameraTable {
+    width_px: u32,
+    height_px: u32,
+    fov_deg: Option<f64>,
+}
+
+impl Default for CameraTable {
+    fn default() -> Self {
+        let CameraConfig { width_px, height_px, .. } = CameraConfig::default();
+        CameraTable { width_px, height_px, fov_deg: None }
+    }
+}
+
+fn first_seed() -> u64 {
+    1
+}
+
+impl ScenarioFile {
+    /// Reads the text alone first, so that its own faults are told with their line, then applies the overrides.
+    pub fn parse(text: &str, path: &Path, overrides: &[String]) -> Result<Self, SceneError> {
+        let unusable = |problem: String| SceneError::Unusable { path: path.into(), problem };
+        let file: ScenarioFile = toml::from_str(text).map_err(|e| unusable(e.to_string().trim_end().into()))?;
+        if overrides.is_empty() {
+            return Ok(file);
+        }
+        let mut table: Table = toml::from_str(text).map_err(|e| unusable(e.to_string().trim_end().into()))?;
+        for line in overrides {
+            set(&mut table, line).map_err(unusable)?;
+        }
+        let with = overrides.join(" ");
+        table.try_into().map_err(|e| unusable(format!("with {with}: {}", e.to_string().trim_end())))
+    }
+
+    /// Fills in what depends on the mission.
+    pub fn resolve(self, path: &Path) -> Result<Scenario, SceneError> {
+        let unusable = |problem: &str| SceneError::Unusable { path: path.into(), problem: problem.into() };
+        let (mission, fov_deg) = match (self.descent, self.tumbling) {
+            (Some(descent), None) => (Mission::Descent(descent), DESCENT_FOV_DEG),
+            (None, Some(tumbling)) => (Mission::Tumbling(tumbling), TUMBLING_FOV_DEG),
+            (None, None) => return Err(unusable("it has neither a table [descent] nor a table [tumbling]: add one")),
+            (Some(_), Some(_)) => {
+                return Err(unusable("it has both a table [descent] and a table [tumbling]: drop one"));
+            }
+        };
+        let CameraTable { width_px, height_px, fov_deg: given_deg } = self.camera;
+        let camera = CameraConfig { width_px, height_px, fov_deg: given_deg.unwrap_or(fov_deg) };
+        Ok(Scenario { seed: self.seed, camera, sensor: self.sensor, mission })
+    }
+
+    /// The text of the file.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("a scenario is plain data")
+    }
+}
+
+impl From<&Scenario> for ScenarioFile {
+    fn from(scenario: &Scenario) -> Self {
+        let CameraConfig { width_px, height_px, fov_deg } = scenario.camera;
+        let (descent, tumbling) = match &scenario.mission {
+            Mission::Descent(descent) => (Some(descent.clone()), None),
+            Mission::Tumbling(tumbling) => (None, Some(tumbling.clone())),
+        };
+        ScenarioFile {
+            seed: scenario.seed,
+            camera: CameraTable { width_px, height_px, fov_deg: Some(fov_deg) },
+            sensor: scenario.sensor,
+            descent,
+            tumbling,
+        }
+    }
+}
+
+/// Puts `table.key=value` into a table; missing tables on the way are made.
+fn set(table: &mut Table, line: &str) -> Result<(), String> {
+    let (path, text) = line.split_once('=').ok_or_else(|| format!("--set {line}: write it as table.key=value"))?;
+    let mut keys: Vec<&str> = path.split('.').map(str::trim).collect();
+    let last = keys.pop().filter(|key| !key.is_empty()).ok_or_else(|| format!("--set {line}: the key is empty"))?;
+    let mut place = table;
+    for key in keys {
+        let next = place.entry(key).or_insert_with(|| Value::Table(Table::new()));
+        place = next.as_table_mut().ok_or_else(|| format!("--set {line}: {key} is a value, not a table"))?;
+    }
+    place.insert(last.into(), value(text.trim()));
+    Ok(())
+}
+
+/// A value in TOML's notation; anything else is text.
+fn value(text: &str) -> Value {
+    let parsed: Option<Table> = toml::from_str(&format!("value = {text}")).ok();
+    parsed
+        .filter(|table| table.len() == 1)
+        .and_then(|mut table| table.remove("value"))
+        .unwrap_or_else(|| Value::String(text.into()))
+}

@@ -1,0 +1,90 @@
+//! Settings of a tumbling scene.
+
+use super::{InertiaSource, PhaseConfig};
+use crate::scene::{BodySource, SceneError, SurfaceConfig, limits};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// A body that tumbles without torque in front of a camera that does not turn. Inertial axes are the camera's.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TumblingConfig {
+    /// Number of pictures (default 60), the first at t = 0.
+    pub frames: usize,
+    /// Time between pictures in s (default 1).
+    pub interval_s: f64,
+    /// Angular rate at t = 0 in asteroid axes, °/s (default 5.0, 2.3, 3.5).
+    pub rate_deg_s: [f64; 3],
+    /// Attitude at t = 0 as a quaternion w, x, y, z that takes inertial to asteroid axes (default 1, 0, 0, 0).
+    pub asteroid_from_inertial: [f64; 4],
+    /// Diameter of the body's bounding sphere over the smaller side of the picture, 0 to 1 (default 0.7).
+    pub fill_fraction: f64,
+    /// Place of the body's centre in the picture, right and down from the middle, in px (default 0, 0).
+    pub center_offset_px: [f64; 2],
+    /// Number of landmarks on the surface for the ground truth (default 200).
+    pub landmarks: usize,
+    /// Inertia (default: the tensor of Deng et al. 2024).
+    pub inertia: InertiaSource,
+    /// Direction to the Sun.
+    pub sun: PhaseConfig,
+    /// Surface.
+    pub surface: SurfaceConfig,
+    /// Shape (default: procedural).
+    pub shape: BodySource,
+}
+
+impl Default for TumblingConfig {
+    fn default() -> Self {
+        TumblingConfig {
+            frames: 60,
+            interval_s: 1.0,
+            rate_deg_s: [5.0, 2.3, 3.5],
+            asteroid_from_inertial: [1.0, 0.0, 0.0, 0.0],
+            fill_fraction: 0.7,
+            center_offset_px: [0.0, 0.0],
+            landmarks: 200,
+            inertia: InertiaSource::default(),
+            sun: PhaseConfig::default(),
+            surface: SurfaceConfig::default(),
+            shape: BodySource::default(),
+        }
+    }
+}
+
+impl TumblingConfig {
+    /// Angular rate at t = 0 in asteroid axes, rad/s.
+    pub fn rate_rad_s(&self) -> Vector3<f64> {
+        Vector3::from(self.rate_deg_s).map(f64::to_radians)
+    }
+
+    /// Attitude at t = 0.
+    pub fn attitude(&self) -> UnitQuaternion<f64> {
+        let [w, x, y, z] = self.asteroid_from_inertial;
+        UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
+    }
+
+    /// Checks every setting's range.
+    ///
+    /// # Errors
+    /// Names the first key outside its range.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        limits::count("frames", self.frames, 1, 100_000)?;
+        limits::within("interval_s", self.interval_s, 1e-6, 1e6)?;
+        limits::finite("rate_deg_s", &self.rate_deg_s)?;
+        for rate_deg_s in self.rate_deg_s {
+            limits::within("rate_deg_s", rate_deg_s, -360.0, 360.0)?;
+        }
+        limits::finite("asteroid_from_inertial", &self.asteroid_from_inertial)?;
+        let norm =
+            Vector3::from_column_slice(&self.asteroid_from_inertial[1..]).norm().hypot(self.asteroid_from_inertial[0]);
+        limits::within("asteroid_from_inertial", norm, 0.999, 1.001)
+            .map_err(|_| SceneError::out_of_range("asteroid_from_inertial", norm, "its norm must be 1"))?;
+        limits::within("fill_fraction", self.fill_fraction, 1e-3, 1.0)?;
+        limits::finite("center_offset_px", &self.center_offset_px)?;
+        limits::count("landmarks", self.landmarks, 0, 100_000)?;
+        self.inertia.validate()?;
+        self.sun.validate().map_err(|e| e.under("sun"))?;
+        self.surface.validate().map_err(|e| e.under("surface"))?;
+        self.shape.validate().map_err(|e| e.under("shape"))
+    }
+}

@@ -1,0 +1,59 @@
+//! Where a small body and the Sun stand in the camera frame.
+
+use crate::geometry::Camera;
+use crate::scene::{SceneError, limits};
+use nalgebra::{Unit, Vector2, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// Direction to the Sun as the camera sees it; fixed in inertial axes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PhaseConfig {
+    /// Angle at the body between camera and Sun in degrees, 0 to 180 (default 35).
+    pub phase_deg: f64,
+    /// Direction in the picture that the light comes from, in degrees from right over up (default 135: upper left).
+    pub azimuth_deg: f64,
+}
+
+impl Default for PhaseConfig {
+    fn default() -> Self {
+        PhaseConfig { phase_deg: 35.0, azimuth_deg: 135.0 }
+    }
+}
+
+impl PhaseConfig {
+    /// Direction to the Sun in camera axes for a body whose centre is at `center_in_camera_m`.
+    pub fn sun_in_camera(&self, center_in_camera_m: &Vector3<f64>) -> Unit<Vector3<f64>> {
+        let to_camera = -center_in_camera_m.normalize();
+        let right = (Vector3::x() - to_camera * to_camera.x).normalize();
+        let up = to_camera.cross(&right);
+        let (phase, azimuth) = (self.phase_deg.to_radians(), self.azimuth_deg.to_radians());
+        let sideways = right * azimuth.cos() + up * azimuth.sin();
+        Unit::new_normalize(to_camera * phase.cos() + sideways * phase.sin())
+    }
+
+    /// Checks every setting's range.
+    ///
+    /// # Errors
+    /// Names the first key outside its range.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        limits::within("phase_deg", self.phase_deg, 0.0, 180.0)?;
+        limits::within("azimuth_deg", self.azimuth_deg, -360.0, 360.0)
+    }
+}
+
+/// Centre in camera axes (m) of a sphere of `radius_m` that fills `fill_fraction` of the picture's smaller side when it
+/// is in the middle, moved sideways by `offset_px` at the same distance. The silhouette of a sphere at distance D has
+/// the half-angle asin(R/D).
+pub(super) fn center_in_camera_m(
+    camera: &Camera,
+    radius_m: f64,
+    fill_fraction: f64,
+    offset_px: &Vector2<f64>,
+) -> Vector3<f64> {
+    let half_side = (0.5 * f64::from(camera.width_px) / camera.focal_px.x)
+        .min(0.5 * f64::from(camera.height_px) / camera.focal_px.y);
+    let distance_m = radius_m / (fill_fraction * half_side).atan().sin();
+    let sideways = offset_px.component_div(&camera.focal_px);
+    Vector3::new(sideways.x, sideways.y, 1.0).normalize() * distance_m
+}
