@@ -45,5 +45,5 @@ fn estimate_tumbling(images: &Path, out: &Path) {
 }
 
 fn value(metrics: &Metrics, name: &str) -> f64 {
-    metrics.value(name).unwrap_or_else(|| panic!("no figure '{name}' in:\n{}", metrics.lines().join("\n")))
+    metrics.figure(name).unwrap_or_else(|| panic!("no figure '{name}' in {metrics:?}"))
 }

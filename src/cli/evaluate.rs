@@ -2,6 +2,7 @@
 
 use super::progress::Terminal;
 use opnav::pipeline::{PipelineError, evaluate_result};
+use opnav::report::figure_lines;
 use std::path::PathBuf;
 
 /// Hold a result against a data set's truth.
@@ -21,9 +22,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineError> {
     let metrics = evaluate_result(&arguments.result, &arguments.truth)?;
     if arguments.json {
-        println!("{}", metrics.to_json());
+        println!("{}", serde_json::to_string_pretty(&metrics).expect("metrics are plain data"));
     } else {
-        metrics.lines().iter().for_each(|line| terminal.say(line));
+        figure_lines(&metrics).iter().for_each(|line| terminal.say(line));
     }
     Ok(())
 }

@@ -8,6 +8,7 @@ use crate::dataset::{CameraSource, write_text};
 use crate::evaluation::Metrics;
 use crate::navigation::landing::LandingConfig;
 use crate::navigation::tumbling::{Estimator, TumblingConfig};
+use crate::report::figure_lines;
 use crate::vision::{FrontEndConfig, FrontEndMode};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -39,11 +40,14 @@ pub fn demonstrate(out: &Path, progress: &dyn Progress) -> Result<DemoOutcome, P
     let asteroid = make_images(out, "asteroid", TUMBLING, progress)?;
     let shooting = demonstrate_tumbling(out, &asteroid, (Estimator::Shooting, "tumbling"), progress)?;
     let paper = demonstrate_tumbling(out, &asteroid, (Estimator::Paper, "tumbling-paper"), progress)?;
-    for (title, metrics) in
-        [("Landing", &landing.1), ("Tracking", &tracking.1), ("Tumbling", &shooting.1), ("Tumbling, paper's EKF", &paper.1)]
-    {
+    for (title, metrics) in [
+        ("Landing", &landing.1),
+        ("Tracking", &tracking.1),
+        ("Tumbling", &shooting.1),
+        ("Tumbling, paper's EKF", &paper.1),
+    ] {
         lines.push(format!("\n{title}"));
-        lines.extend(metrics.lines());
+        lines.extend(figure_lines(metrics));
     }
     let page = out.join("report.html");
     write_page(&[landing.0, tracking.0, shooting.0, paper.0], &page)?;

@@ -5,6 +5,7 @@ use crate::evaluation::EvaluationError;
 use crate::navigation::landing::LandingError;
 use crate::navigation::tumbling::TumblingError;
 use crate::render::RenderError;
+use crate::report::ReportError;
 use crate::scene::SceneError;
 use crate::vision::VisionError;
 use std::path::PathBuf;
@@ -34,6 +35,9 @@ pub enum PipelineError {
     /// The comparison with the truth.
     #[error(transparent)]
     Evaluation(#[from] EvaluationError),
+    /// The page.
+    #[error(transparent)]
+    Report(#[from] ReportError),
     /// The output folder holds something already.
     #[error("{} is not empty: continue it with --resume, or name another folder", path.display())]
     NotEmpty {

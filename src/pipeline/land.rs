@@ -6,7 +6,8 @@ use crate::dataset::{
     CameraSource, ImageSequence, StampedPose, read_designated, read_imu, read_initial_state, write_tum,
 };
 use crate::navigation::landing::{
-    ImuRecord, LandingConfig, LandingEpoch, LandingInput, LandingResult, navigate, write_covariance_csv, write_estimate_csv,
+    ImuRecord, LandingConfig, LandingEpoch, LandingInput, LandingResult, navigate, write_covariance_csv,
+    write_estimate_csv,
 };
 use crate::vision::{FrontEnd, FrontEndConfig, TrackInputs};
 use std::path::{Path, PathBuf};

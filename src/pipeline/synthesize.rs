@@ -3,8 +3,8 @@
 use super::{PipelineError, Progress};
 use crate::dataset::truth::{LandmarkObservation, write_asteroid, write_lander_states, write_landmarks};
 use crate::dataset::{
-    CameraSensor, StampedPose, write_atomically, write_camera_sensor, write_depth_tiff, write_designated, write_grey_png,
-    write_imu, write_imu_sensor, write_initial_state, write_manifest, write_text, write_tum,
+    CameraSensor, StampedPose, write_atomically, write_camera_sensor, write_depth_tiff, write_designated,
+    write_grey_png, write_imu, write_imu_sensor, write_initial_state, write_manifest, write_text, write_tum,
 };
 use crate::render::{Gpu, RenderConfig, RenderedFrame, Renderer, World, expose};
 use crate::scene::{Scenario, Scene, SensorConfig, View};

@@ -3,7 +3,8 @@
 use super::{PipelineError, Progress, Summary};
 use crate::dataset::{CameraSource, DatasetError, ImageSequence, StampedPose, write_atomically, write_tum};
 use crate::vision::{
-    FrontEnd, FrontEndConfig, PairStatus, TrackInputs, draw_tracks, track_sequence, write_relative_rotations, write_tracks,
+    FrameReport, FrontEnd, FrontEndConfig, PairStatus, TrackInputs, TrackObservation, draw_tracks, track_sequence,
+    write_relative_rotations, write_tracks,
 };
 use image::RgbImage;
 use nalgebra::{Isometry3, UnitQuaternion};
@@ -70,9 +71,7 @@ pub(super) fn run_front_end(
     let front_end = track_sequence(sequence, config, inputs, &|done| progress.advance_to(done))?;
     progress.end();
     summary.timing_ms.insert("front_end".into(), start.elapsed().as_secs_f64() * 1e3);
-    for (stage, milliseconds) in front_end.mean_stage_ms() {
-        summary.timing_ms.insert(format!("{stage}_per_frame"), milliseconds);
-    }
+    summary.timing_ms.extend(mean_stage_ms(&front_end));
     let accepted = front_end.rotations.iter().filter(|r| r.status == PairStatus::Ok).count();
     let counts = [
         ("frames", front_end.frames.len()),
@@ -82,6 +81,20 @@ pub(super) fn run_front_end(
     ];
     summary.counts.extend(counts.map(|(name, count)| (name.to_string(), count)));
     Ok(front_end)
+}
+
+/// Mean time a frame of each stage of the front end, ms.
+fn mean_stage_ms(front_end: &FrontEnd) -> Vec<(String, f64)> {
+    let stages: [(&str, fn(&FrameReport) -> f64); 5] = [
+        ("load", |f| f.load_ms),
+        ("detect", |f| f.detect_ms),
+        ("describe", |f| f.describe_ms),
+        ("match", |f| f.match_ms),
+        ("rotation", |f| f.rotation_ms),
+    ];
+    let count = front_end.frames.len().max(1) as f64;
+    let mean = |of: fn(&FrameReport) -> f64| front_end.frames.iter().map(of).sum::<f64>() / count;
+    stages.map(|(name, of)| (format!("{name}_per_frame"), mean(of))).to_vec()
 }
 
 /// Writes `tracks.csv`, `relative_rotations.csv` and `attitude_chain.tum`.
@@ -120,12 +133,20 @@ pub(super) fn write_overlays(out: &Path, sequence: &ImageSequence, front_end: &F
     chosen.dedup();
     for index in chosen.into_iter().filter(|i| *i < frames.len()) {
         let frame = &sequence.frames[frames[index].index];
-        let now = front_end.observations_at(frames[index].t_ns);
-        let before = front_end.observations_at(frames[index - 1].t_ns);
-        let overlay = draw_tracks(&sequence.load(frame)?, now, before);
+        let now = observations_at(front_end, frames[index].t_ns);
+        let before = observations_at(front_end, frames[index - 1].t_ns);
+        let before_px = before.iter().map(|o| (o.track_id, o.pixel_px)).collect();
+        let designated = now.iter().find(|o| o.track_id == TrackObservation::DESIGNATED);
+        let overlay = draw_tracks(&sequence.load(frame)?, now, &before_px, designated);
         write_rgb_png(&out.join(format!("overlays/{}.png", frame.t_ns)), &overlay)?;
     }
     Ok(())
+}
+
+fn observations_at(front_end: &FrontEnd, t_ns: i64) -> &[TrackObservation] {
+    let first = front_end.observations.partition_point(|o| o.t_ns < t_ns);
+    let end = front_end.observations.partition_point(|o| o.t_ns <= t_ns);
+    &front_end.observations[first..end]
 }
 
 fn write_rgb_png(path: &Path, picture: &RgbImage) -> Result<(), PipelineError> {

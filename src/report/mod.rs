@@ -17,7 +17,7 @@ mod render;
 mod result;
 
 pub use error::ReportError;
-pub use figures::{environment_table, figure_table, timing_table};
+pub use figures::{environment_table, figure_lines, figure_table, timing_table};
 pub use mission::{MissionReport, mission_section};
 pub use numbers::{format_number, label_of, unit_label};
 pub use overlay::{FeatureMark, MarkKind, draw_features, picture_png};

@@ -35,23 +35,28 @@ mod terrain_scatter;
 mod tumbling;
 mod view;
 
-pub use body_shape::{ProceduralBody};
+pub use body_shape::ProceduralBody;
 pub use body_source::{BodySource, MeshFile};
-pub use camera_config::{CameraConfig};
+pub use camera_config::CameraConfig;
 pub use crater::{CraterClass, FeatureSample};
-pub use descent::{CameraMountConfig, DescentConfig, DescentMotion, DescentScene, FrameSchedule, GuidanceConfig, GuidanceProfile, ImuConfig, InitialErrorConfig, PolynomialGuidance, SunConfig, ideal_samples};
-pub use error::{SceneError};
-pub use imager::{Imager};
-pub use mass_properties::{MassProperties};
-pub use mesh::{Mesh};
-pub use noise::{NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseSample, noise_2d, noise_3d};
+pub use descent::{
+    CameraMountConfig, DescentConfig, DescentMotion, DescentScene, FrameSchedule, GuidanceConfig, GuidanceProfile,
+    ImuConfig, InitialErrorConfig, PolynomialGuidance, SunConfig, ideal_samples,
+};
+pub use error::SceneError;
+pub use imager::Imager;
+pub use mass_properties::MassProperties;
+pub use mesh::Mesh;
+pub use noise::{
+    NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseSample, noise_2d, noise_3d,
+};
 pub use noise_octave::{NoiseOctave, OctaveStrength};
 pub use scenario::{Mission, Scenario, Scene};
 pub use sensor_config::{Exposure, SensorConfig};
 pub use small_body::{BodySurface, SmallBody, SurfaceConfig};
 pub use terrain::{GroundDetail, GroundSample, Terrain};
 pub use terrain_config::{TerrainConfig, TerrainConfigError};
-pub use terrain_rock::{RockClass};
+pub use terrain_rock::RockClass;
 pub use terrain_scatter::{Feature, Scatter};
 pub use tumbling::{InertiaSource, PhaseConfig, RigidBody, Spin, TumblingConfig, TumblingScene};
-pub use view::{View};
+pub use view::View;

@@ -5,8 +5,8 @@ use crate::dataset::DesignatedPoint;
 use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector2, Vector3};
 use std::ops::Range;
 
-/// Predicted rotation `camera(t_to)_from_camera(t_from)` of two times in ns.
-pub type RotationPrediction<'a> = &'a (dyn Fn(i64, i64) -> UnitQuaternion<f64> + Sync);
+/// Predicted rotation `camera(t_to)_from_camera(t_from)` of two times in ns; `None` where nothing is known.
+pub type RotationPrediction<'a> = &'a (dyn Fn(i64, i64) -> Option<UnitQuaternion<f64>> + Sync);
 
 /// Which pictures to use, and what is known besides.
 #[derive(Clone)]

@@ -60,7 +60,7 @@ impl Job<'_> {
     }
 
     pub(super) fn predicted(&self, t_ns_from: i64, t_ns_to: i64) -> Option<UnitQuaternion<f64>> {
-        self.prior.map(|prior| prior(t_ns_from, t_ns_to))
+        self.prior.and_then(|prior| prior(t_ns_from, t_ns_to))
     }
 }
 

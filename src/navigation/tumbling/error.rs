@@ -77,7 +77,9 @@ pub enum TumblingError {
         t_ns: i64,
     },
     /// The pictures end before the first arc does.
-    #[error("the first arc of the real-time estimator, {first_arc_s} s, needs more pictures: shorten it or use 'shooting'")]
+    #[error(
+        "the first arc of the real-time estimator, {first_arc_s} s, needs more pictures: shorten it or use 'shooting'"
+    )]
     ArcTooShort {
         /// Length of the first arc in s.
         first_arc_s: f64,

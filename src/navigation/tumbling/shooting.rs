@@ -92,7 +92,8 @@ fn fit_robustly(
     start: &Fit,
     config: &TumblingConfig,
 ) -> Fit {
-    let mut fit = FitProblem { pairs, times_s, huber: f64::INFINITY, prior }.start(&start.guess).unwrap_or(start.clone());
+    let mut fit =
+        FitProblem { pairs, times_s, huber: f64::INFINITY, prior }.start(&start.guess).unwrap_or(start.clone());
     let mut scale = f64::INFINITY;
     for _ in 0..4 {
         let next_scale = robust_scale(misfits(pairs, &fit));
@@ -145,8 +146,11 @@ fn finish(
             undetermined = next_weak;
         }
     }
-    summarize(fit, &used, undetermined, config)
-        .ok_or(TumblingError::TooFewPairs { usable: used.len(), given: pairs.len(), needed: 5 })
+    summarize(fit, &used, undetermined, config).ok_or(TumblingError::TooFewPairs {
+        usable: used.len(),
+        given: pairs.len(),
+        needed: 5,
+    })
 }
 
 fn refuse_hopeless(pairs: &[RotationPair], fit: &Fit) -> Result<(), TumblingError> {

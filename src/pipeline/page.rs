@@ -1,0 +1,62 @@
+//! Result folders to one page.
+
+use super::{PipelineError, diagnose};
+use crate::dataset::DatasetError;
+use crate::report::{Page, Picture, Section, environment_table, result_section, write_report};
+use std::path::{Path, PathBuf};
+
+/// Writes one self-contained HTML page about evaluated result folders.
+///
+/// # Errors
+/// A result that was not evaluated, or a file that cannot be read or written.
+pub fn write_page(results: &[PathBuf], out: &Path) -> Result<(), PipelineError> {
+    let mut sections = Vec::new();
+    for result in results {
+        let mut section = result_section(result, overlay_pictures(result)?)?;
+        if let Some(name) = result.file_name().filter(|_| results.len() > 1) {
+            section.heading = format!("{} ({})", section.heading, name.to_string_lossy());
+        }
+        sections.push(section);
+    }
+    sections.push(environment());
+    let page = Page {
+        title: "opnav: navigation by images".into(),
+        lead: "What was estimated from the images, held against the truth that the estimators never saw.".into(),
+        sections,
+    };
+    Ok(write_report(&page, out)?)
+}
+
+/// The pictures of `overlays/` in order of time.
+fn overlay_pictures(result: &Path) -> Result<Vec<Picture>, PipelineError> {
+    let folder = result.join("overlays");
+    if !folder.is_dir() {
+        return Ok(Vec::new());
+    }
+    let mut files: Vec<(i64, PathBuf)> = std::fs::read_dir(&folder)
+        .map_err(DatasetError::io("list", &folder))?
+        .filter_map(|entry| {
+            let path = entry.ok()?.path();
+            let t_ns = path.file_stem()?.to_str()?.parse().ok()?;
+            Some((t_ns, path))
+        })
+        .collect();
+    files.sort();
+    let picture = |(t_ns, path): &(i64, PathBuf)| {
+        let png = std::fs::read(path).map_err(DatasetError::io("read", path))?;
+        Ok(Picture { caption: format!("t = {:.1} s", *t_ns as f64 * 1e-9), png })
+    };
+    files.iter().map(picture).collect()
+}
+
+fn environment() -> Section {
+    let diagnosis = diagnose();
+    let entries = [
+        ("opnav", diagnosis.opnav_version.to_string()),
+        ("OpenCV", diagnosis.opencv_version),
+        ("graphics adapter", diagnosis.default_adapter.unwrap_or_else(|| "none".into())),
+        ("processor threads", diagnosis.threads.to_string()),
+    ]
+    .map(|(name, value)| (name.to_string(), value));
+    Section { heading: "Environment".into(), blocks: vec![environment_table(&entries)] }
+}
