@@ -158,8 +158,11 @@ fn render_and_write(
                     FinishedFrame { t_ns: view.t_ns, picture, truth }
                 });
                 match frame {
-                    Ok(frame) if sender.send(frame).is_ok() => {}
-                    Ok(_) => break, // the writer failed and says why below
+                    Ok(frame) => {
+                        if sender.send(frame).is_err() {
+                            break; // the writer failed and says why below
+                        }
+                    }
                     Err(error) => {
                         outcome = Err(PipelineError::from(error));
                         break;

@@ -76,7 +76,7 @@ fn write_result(
 fn describe(result: &TumblingResult, summary: &mut Summary) {
     summary.counts.insert("pairs_used".into(), result.pairs_used);
     summary.counts.insert("pairs_rejected".into(), result.pairs_rejected);
-    summary.notes.extend(result.undetermined.iter().map(|d| format!("inertia not determined: {d}")));
+    summary.notes.extend(result.undetermined.iter().map(|d| format!("inertia not determined: {}", d.name)));
     let Some(last) = result.epochs.last() else { return };
     let sigma = last.covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
     let (q, w) = (last.asteroid_from_inertial, last.rate_in_asteroid_rad_s);

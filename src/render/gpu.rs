@@ -3,7 +3,7 @@
 use super::RenderError;
 
 /// An adapter that this machine offers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct AdapterReport {
     /// Name, such as `llvmpipe (LLVM 15.0.6, 256 bits)`.
     pub name: String,

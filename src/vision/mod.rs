@@ -61,6 +61,8 @@ mod tracks_file;
 #[cfg(feature = "vision")]
 mod usac;
 
+#[cfg(feature = "vision")]
+pub use opencv_bridge::opencv_version;
 pub use overlay::{contact_sheet, draw_tracks};
 pub use result::{MatchedPair, PairStatus, RelativeRotation, RotationModel, TrackObservation};
 pub use rotations_file::{read_relative_rotations, write_relative_rotations};

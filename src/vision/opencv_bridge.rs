@@ -11,6 +11,11 @@ pub(super) fn picture_mat(picture: &GrayImage) -> opencv::Result<BoxedRef<'_, Ma
     Mat::new_rows_cols_with_data(picture.height() as i32, picture.width() as i32, picture.as_raw().as_slice())
 }
 
+/// Version of the OpenCV library in use, such as `4.6.0`.
+pub fn opencv_version() -> String {
+    opencv::core::get_version_string().unwrap_or_else(|_| "unknown".into())
+}
+
 /// Points as OpenCV's vector.
 pub(super) fn points(values: impl Iterator<Item = Vector2<f64>>) -> Vector<Point2d> {
     values.map(|v| Point2d::new(v.x, v.y)).collect()
