@@ -46,12 +46,10 @@ impl Axis {
         if largest < 25.0 * typical {
             return Axis::linear(-1.1 * largest, 1.1 * largest, 4);
         }
-        let mut axis = Axis {
-            scale: Scale::Asinh { linear: typical },
-            low: -1.5 * largest,
-            high: 1.5 * largest,
-            ticks: vec![0.0],
-        };
+        // A quarter of the small sizes, so that the quiet end of a run keeps its shape.
+        let linear = 0.25 * typical;
+        let mut axis =
+            Axis { scale: Scale::Asinh { linear }, low: -1.5 * largest, high: 1.5 * largest, ticks: vec![0.0] };
         axis.add_decades(typical, largest);
         axis
     }
