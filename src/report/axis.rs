@@ -85,6 +85,11 @@ impl Axis {
         Axis { scale: Scale::Log, low, high, ticks }
     }
 
+    /// Whether far values are drawn by their logarithm, on both sides of zero.
+    pub fn bends(&self) -> bool {
+        matches!(self.scale, Scale::Asinh { .. })
+    }
+
     fn place(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Linear => value,
