@@ -308,6 +308,27 @@ fn errors_drawn_from_the_covariance_are_called_consistent() {
 }
 
 #[test]
+fn the_sigma_of_roll_pitch_and_yaw_follow_from_the_covariance_in_site_axes() {
+    let bench = landing_bench();
+    let mut rows = perfect_landing();
+    let turned = UnitQuaternion::from_euler_angles(0.3, 0.0, std::f64::consts::FRAC_PI_2);
+    rows[7].pose.rotation = turned;
+    bench.put("estimate.csv", &landing_csv(&rows));
+    let sigma = SVector::<f64, 9>::from_iterator([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 0.01, 0.02, 0.03]);
+    let covariance = SMatrix::<f64, 9, 9>::from_diagonal(&sigma.component_mul(&sigma));
+    bench.put("covariance.csv", &covariance_csv(rows.iter().map(|row| (row.t_ns, covariance))));
+    let metrics = bench.metrics();
+    // A lander that heads along the site's y rolls about y and pitches about -x.
+    for (name, expected) in [("roll_error", 0.02f64), ("pitch_error", 0.01), ("yaw_error", 0.03)] {
+        let found = metrics.series(name).expect("a curve").sigma[7];
+        assert!((found - expected.to_degrees()).abs() < 1e-9, "{name}: {found}");
+    }
+    for (name, expected) in [("position_error_z", 3.0), ("velocity_error_x", 4.0), ("velocity_error_z", 6.0)] {
+        assert_eq!(metrics.series(name).expect("a curve").sigma[7], expected, "{name}");
+    }
+}
+
+#[test]
 fn a_wrong_covariance_is_noticed_on_either_side() {
     for (scale, word) in [(0.5, "overconfident"), (2.0, "pessimistic")] {
         let verdict = landing_with_noise(scale).metrics().verdict("consistent").expect("a verdict").clone();
@@ -546,7 +567,7 @@ fn known_errors_of_a_tumbling_result_are_found_exactly() {
     let mut rows = tumble(61, 1.0);
     for row in &mut rows {
         row.rate_in_asteroid_rad_s -= Vector3::new(0.0, 0.003, 0.004);
-        row.asteroid_from_inertial = exp(&Vector3::new(-0.01, 0.0, 0.0)) * row.asteroid_from_inertial;
+        row.asteroid_from_inertial *= exp(&Vector3::new(-0.01, 0.0, 0.0));
     }
     bench.put("estimate.csv", &tumbling_csv(&rows, "0.80,1.37,0.13,0.17,-0.10"));
     let metrics = bench.metrics();
@@ -577,7 +598,7 @@ fn tumbling_consistency_uses_attitude_and_rate_in_that_order() {
     let mut rows = tumble(61, 1.0);
     for (k, row) in rows.iter_mut().enumerate() {
         let error = root * white::<6>(500 + k as u64);
-        row.asteroid_from_inertial = exp(&-Vector3::from(error.fixed_rows::<3>(0))) * row.asteroid_from_inertial;
+        row.asteroid_from_inertial *= exp(&-Vector3::from(error.fixed_rows::<3>(0)));
         row.rate_in_asteroid_rad_s -= error.fixed_rows::<3>(3);
     }
     let covariance = root * root.transpose();

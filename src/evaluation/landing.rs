@@ -10,7 +10,7 @@ use super::true_camera::TrueCamera;
 use super::true_motion::lander_state_at;
 use crate::dataset::truth::{LanderState, read_lander_states};
 use crate::geometry::so3::log;
-use nalgebra::{Isometry3, SVector, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
@@ -73,11 +73,30 @@ fn landing_error(states: &[LanderState], epoch: &LandingEpoch) -> Option<Landing
         position_m,
         velocity_m_s,
         roll_pitch_yaw_rad: turn.map(|angle| (angle + PI).rem_euclid(TAU) - PI),
-        sigma: epoch.sigma,
+        sigma: epoch.covariance.map(|c| sigma_of(&c, &estimated.rotation)).or(epoch.sigma),
         normalized: epoch.covariance.and_then(|covariance| NormalizedSample::new(t_s, &error, &covariance)),
         true_site_from_lander: true_pose,
         estimated_site_from_lander: estimated,
     })
+}
+
+/// 1σ of x, y, z, roll, pitch, yaw, vx, vy, vz by a covariance whose attitude part is ψ in site axes:
+/// `ψ = J (roll, pitch, yaw)` with the columns of `J` the axes that the three angles turn about.
+fn sigma_of(covariance: &SMatrix<f64, 9, 9>, site_from_lander: &UnitQuaternion<f64>) -> SVector<f64, 9> {
+    let (_, pitch, yaw) = site_from_lander.euler_angles();
+    let turn = |pitch: f64| UnitQuaternion::from_euler_angles(0.0, pitch, yaw);
+    let axes = [turn(pitch) * Vector3::x(), turn(0.0) * Vector3::y(), Vector3::z()];
+    let psi = covariance.fixed_view::<3, 3>(6, 6).into_owned();
+    // At a pitch of 90° roll and yaw cannot be told apart: the site-axes values stand in.
+    let by_psi = Matrix3::from_columns(&axes).try_inverse().unwrap_or_else(Matrix3::identity);
+    let angles = by_psi * psi * by_psi.transpose();
+    let variance = covariance.diagonal();
+    let sigma = |k: usize| match k {
+        0..3 => variance[k],
+        3..6 => angles[(k - 3, k - 3)],
+        _ => variance[k - 3],
+    };
+    SVector::from_fn(|k, _| sigma(k).max(0.0).sqrt())
 }
 
 /// Roll, pitch and yaw of `site_from_lander = Rz(yaw) Ry(pitch) Rx(roll)`. A wrong yaw leaves roll and pitch alone, so
@@ -88,13 +107,12 @@ fn roll_pitch_yaw(site_from_lander: &UnitQuaternion<f64>) -> Vector3<f64> {
 }
 
 fn add_series(errors: &[LandingError], metrics: &mut Metrics) {
-    let axes = ["x", "y", "z"];
-    for axis in 0..3 {
-        let name = format!("position_error_{}", axes[axis]);
+    for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+        let name = format!("position_error_{letter}");
         add_curve(errors, (&name, "m", 1.0), (|e, k| e.position_m[k], axis), metrics);
     }
-    for axis in 0..3 {
-        let name = format!("velocity_error_{}", axes[axis]);
+    for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+        let name = format!("velocity_error_{letter}");
         add_curve(errors, (&name, "m/s", 1.0), (|e, k| e.velocity_m_s[k - 6], 6 + axis), metrics);
     }
     for (axis, name) in ["roll_error", "pitch_error", "yaw_error"].into_iter().enumerate() {

@@ -15,7 +15,7 @@ pub struct LandingEpoch {
     pub site_from_lander: Isometry3<f64>,
     /// Estimated velocity of the lander in the site frame, m/s.
     pub lander_velocity_in_site_m_s: Vector3<f64>,
-    /// 1σ of x, y, z (m), roll, pitch, yaw (rad), vx, vy, vz (m/s); none where the file has no such columns.
+    /// The file's 1σ of x, y, z (m), roll, pitch, yaw (rad), vx, vy, vz (m/s); none where it has no such columns.
     pub sigma: Option<SVector<f64, 9>>,
     /// Covariance of (position m, velocity m/s, ψ rad), site axes, `true_site_from_lander = exp(ψ) * estimated`.
     pub covariance: Option<SMatrix<f64, 9, 9>>,

@@ -12,11 +12,12 @@ use super::true_motion::asteroid_state_at;
 use super::tumbling_epochs::{INERTIA_NAMES, TumblingEpoch, read_tumbling_epochs};
 use crate::dataset::read_tum;
 use crate::dataset::truth::{AsteroidInertia, AsteroidState, read_asteroid};
-use crate::geometry::so3::log;
+use crate::geometry::Manifold;
 use nalgebra::{SVector, UnitQuaternion, Vector3};
 use std::path::Path;
 
-/// True less estimated state at one epoch, in the estimator's asteroid axes.
+/// True less estimated state at one epoch: the attitude error in inertial axes (the camera's), the rate error in the
+/// estimator's asteroid axes.
 struct TumblingError {
     t_s: f64,
     attitude_rad: Vector3<f64>,
@@ -105,7 +106,7 @@ fn inertia_ratios(inertia: &AsteroidInertia, estimate_from_truth: &UnitQuaternio
 
 fn tumbling_error(truth: &AlignedTruth, epoch: &TumblingEpoch, start_of_truth_ns: i64) -> Option<TumblingError> {
     let state = asteroid_state_at(&truth.states, epoch.t_ns)?;
-    let attitude_rad = log(&(state.asteroid_from_inertial * epoch.asteroid_from_inertial.inverse()));
+    let attitude_rad = state.asteroid_from_inertial.minus(&epoch.asteroid_from_inertial);
     let rate_rad_s = state.rate_in_asteroid_rad_s - epoch.rate_in_asteroid_rad_s;
     let mut error = SVector::<f64, 6>::zeros();
     error.fixed_rows_mut::<3>(0).copy_from(&attitude_rad);

@@ -21,7 +21,8 @@ pub struct TumblingEpoch {
     pub inertia: [Option<f64>; 5],
     /// 1σ of each.
     pub inertia_sigma: [Option<f64>; 5],
-    /// Covariance of (φ rad, rate rad/s), asteroid axes, `true_asteroid_from_inertial = exp(φ) * estimated`.
+    /// Covariance of (attitude error in inertial axes in rad, rate error in asteroid axes in rad/s), the attitude error
+    /// being `truth.minus(estimate)`: `true_asteroid_from_inertial = estimated * exp(d)`.
     pub covariance: Option<SMatrix<f64, 6, 6>>,
 }
 

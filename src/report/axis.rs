@@ -46,16 +46,26 @@ impl Axis {
         if largest < 25.0 * typical {
             return Axis::linear(-1.1 * largest, 1.1 * largest, 4);
         }
-        let linear = 10f64.powf(typical.log10().floor()) * 0.5;
-        let high = 1.5 * largest;
-        let (first, last) = ((2.0 * linear).log10().round() as i32, high.log10().floor() as i32);
-        let step = ((last - first) / 2).max(1);
-        let decades = (first..=last).rev().step_by(step as usize).map(|k| 10f64.powi(k));
-        let mut ticks = vec![0.0];
-        for decade in decades {
-            ticks.extend([-decade, decade]);
+        // A quarter of the small sizes, so that the quiet end of a run keeps its shape.
+        let linear = 0.25 * typical;
+        let mut axis =
+            Axis { scale: Scale::Asinh { linear }, low: -1.5 * largest, high: 1.5 * largest, ticks: vec![0.0] };
+        axis.add_decades(typical, largest);
+        axis
+    }
+
+    /// Ticks at ± powers of ten from the largest down, as long as their labels keep clear of each other and of zero.
+    fn add_decades(&mut self, typical: f64, largest: f64) {
+        let gap = 0.13 * 2.0 * self.place(self.high);
+        let mut above = f64::INFINITY;
+        for exponent in (typical.log10().floor() as i32..=largest.log10().floor() as i32).rev() {
+            let decade = 10f64.powi(exponent);
+            let place = self.place(decade);
+            if above - place >= gap && place >= gap {
+                self.ticks.extend([-decade, decade]);
+                above = place;
+            }
         }
-        Axis { scale: Scale::Asinh { linear }, low: -high, high, ticks }
     }
 
     /// Logarithmic axis over positive values.
@@ -75,6 +85,11 @@ impl Axis {
         Axis { scale: Scale::Log, low, high, ticks }
     }
 
+    /// Whether far values are drawn by their logarithm, on both sides of zero.
+    pub fn bends(&self) -> bool {
+        matches!(self.scale, Scale::Asinh { .. })
+    }
+
     fn place(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Linear => value,
@@ -84,10 +99,10 @@ impl Axis {
     }
 }
 
-/// The round number (1, 2 or 5 times a power of ten) next above `step`.
+/// The round number (1, 2, 2.5 or 5 times a power of ten) next above `step`.
 fn round_step(step: f64) -> f64 {
     let decade = 10f64.powf(step.log10().floor());
-    [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * decade).find(|s| *s >= 0.999 * step).unwrap_or(decade)
+    [1.0, 2.0, 2.5, 5.0, 10.0].into_iter().map(|m| m * decade).find(|s| *s >= 0.999 * step).unwrap_or(decade)
 }
 
 impl Ranged for Axis {
@@ -124,7 +139,7 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_inside() {
-        assert_eq!(Axis::linear(0.0, 198.0, 8).ticks, [0.0, 50.0, 100.0, 150.0]);
+        assert_eq!(Axis::linear(0.0, 198.0, 9).ticks, [0.0, 25.0, 50.0, 75.0, 100.0, 125.0, 150.0, 175.0]);
         assert_eq!(Axis::linear(-1.1, 1.1, 4).ticks, [-1.0, 0.0, 1.0]);
         assert_eq!(Axis::log(0.03, 40.0).ticks, [0.1, 1.0, 10.0]);
         assert_eq!(Axis::log(0.3, 2.1).ticks, [0.5, 1.0, 2.0]);

@@ -102,7 +102,7 @@ fn add_tumbling(metrics: &Metrics, blocks: &mut Vec<Block>) -> Result<(), Report
     blocks.push(figure_table("Errors of the motion", figures_with(metrics, &prefixes)));
     blocks.push(inertia_table(metrics));
     for (title, prefix) in
-        [("Attitude error in asteroid axes", "attitude_error_"), ("Rate error in asteroid axes", "rate_error_")]
+        [("Attitude error in the camera's axes", "attitude_error_"), ("Rate error in asteroid axes", "rate_error_")]
     {
         add_errors(title, &series_of(metrics, &["x", "y", "z"].map(|a| format!("{prefix}{a}"))), blocks)?;
     }

@@ -31,7 +31,9 @@ pub struct FeatureMark {
 /// The picture in grey with a circle on each feature and a trail from where it was; a cross on the designated point.
 pub fn draw_features(picture: &GrayImage, marks: &[FeatureMark]) -> RgbImage {
     let mut drawn = image::DynamicImage::ImageLuma8(picture.clone()).to_rgb8();
-    let scale = (f64::from(picture.width()) / 512.0).max(1.0);
+    let scale = (f64::from(picture.width()) / 400.0).max(1.0);
+    // Pages show pictures smaller than they are: thin lines would vanish.
+    let bold = picture.width() >= 400;
     for mark in marks {
         let color = match mark.kind {
             MarkKind::Feature => Rgb([255, 196, 64]),
@@ -39,15 +41,27 @@ pub fn draw_features(picture: &GrayImage, marks: &[FeatureMark]) -> RgbImage {
             MarkKind::Outlier => Rgb([120, 150, 170]),
         };
         if let Some(before) = mark.before_px {
-            draw_line_segment_mut(&mut drawn, single(&before), single(&mark.pixel_px), Rgb([80, 200, 255]));
+            draw_trail(&mut drawn, &before, &mark.pixel_px, bold);
         }
         let center = (mark.pixel_px.x.round() as i32, mark.pixel_px.y.round() as i32);
         match mark.kind {
             MarkKind::Designated => draw_cross(&mut drawn, &mark.pixel_px, 9.0 * scale, color),
-            _ => draw_hollow_circle_mut(&mut drawn, center, (3.0 * scale).round() as i32, color),
+            MarkKind::Feature | MarkKind::Outlier => {
+                let radius = (3.0 * scale).round() as i32;
+                for ring in 0..=i32::from(bold) {
+                    draw_hollow_circle_mut(&mut drawn, center, radius + ring, color);
+                }
+            }
         }
     }
     drawn
+}
+
+fn draw_trail(drawn: &mut RgbImage, from: &Vector2<f64>, to: &Vector2<f64>, bold: bool) {
+    for offset in 0..=i32::from(bold) {
+        let shift = Vector2::repeat(f64::from(offset));
+        draw_line_segment_mut(drawn, single(&(from + shift)), single(&(to + shift)), Rgb([80, 200, 255]));
+    }
 }
 
 /// A cross with an open middle, three lines wide so that it is found at a glance.

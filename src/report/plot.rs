@@ -8,7 +8,7 @@ use plotters::prelude::*;
 /// A line of a legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LegendEntry {
-    /// Colour as CSS.
+    /// Colour as CSS; empty for a remark without one.
     pub color: String,
     /// What the colour stands for.
     pub label: String,

@@ -34,6 +34,10 @@ pub fn error_with_envelope(title: &str, unit: &str, curves: &[Curve<'_>]) -> Res
     if curves.iter().any(|c| !c.sigma.is_empty()) {
         legend.push(entry(BAND, "±3σ of the estimator"));
     }
+    if panels.iter().any(|panel| panel.axis.bends()) {
+        legend
+            .push(LegendEntry { color: String::new(), label: "vertical axis: even near 0, logarithmic beyond".into() });
+    }
     Ok(Plot { title: title.into(), svg, legend })
 }
 

@@ -128,7 +128,10 @@ fn plot_markup(plot: &Plot) -> Markup {
             figcaption { (plot.title) }
             ul class="legend" {
                 @for entry in &plot.legend {
-                    li { span class="swatch" style={ "background:" (entry.color) } {} (entry.label) }
+                    li {
+                        @if !entry.color.is_empty() { span class="swatch" style={ "background:" (entry.color) } {} }
+                        (entry.label)
+                    }
                 }
             }
             (PreEscaped(&plot.svg))

@@ -22,7 +22,7 @@ pub fn result_section(result_folder: &Path, pictures: Vec<Picture>) -> Result<Se
         Mission::Tumbling => (
             "Tumbling body",
             "The attitude, the angular rate and the inertia ratios of a small body are found from pictures of one camera. \
-             Every error below is the truth less the estimate, in asteroid axes that are the camera's at the start.",
+             Every error below is the truth less the estimate; the asteroid's axes are the camera's at the start.",
         ),
         Mission::Tracking => (
             "Tracking",
