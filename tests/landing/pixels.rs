@@ -172,6 +172,25 @@ fn designated_pixel_error_is_in_the_covariance() {
     assert!(mean(0.0) > 100.0);
 }
 
+/// The tracker slips off the designated point by 0.15 px a frame, some 8 m in all: with the option the covariance says so.
+#[test]
+fn designated_drift_is_in_the_covariance() {
+    let flight = Flight { designated_drift_px: 0.15, ..FLIGHT };
+    let config = LandingConfig { designated_drift_px: 0.15, ..LandingConfig::default() };
+    let last: Vec<LandingEpoch> = (0..16u64)
+        .into_par_iter()
+        .map(|run| {
+            let input = fly(&flight, run);
+            last_frame(&input, &land(&input, &config))
+        })
+        .collect();
+    let mean = |f: &dyn Fn(&LandingEpoch) -> f64| last.iter().map(f).sum::<f64>() / last.len() as f64;
+    let horizontal_m = mean(&|e| error(e).fixed_rows::<2>(0).norm_squared()).sqrt();
+    assert!((2.0..20.0).contains(&horizontal_m), "{horizontal_m}");
+    let bounds = ConsistencyBounds::of_mean(9, last.len(), 0.999);
+    assert!(bounds.contains(mean(&nees)), "NEES {}, horizontal {horizontal_m} m", mean(&nees));
+}
+
 /// The estimate depends on nothing but its input, and a fresh random selector is reproduced by its seed.
 #[test]
 fn same_input_same_estimate() {
