@@ -1,11 +1,12 @@
 //! From pixels to touchdown: irregular frames, tracks of limited length, relief, outliers, missing images, wrong input.
 
-use super::descent::pose_error;
-use super::flight::{FLIGHT, Flight, fly, truth_at_ns};
-use nalgebra::{SVector, Vector2};
+use super::descent::{exact_increment, pose_error, truth};
+use super::flight::{FLIGHT, Flight, camera, fly, truth_at_ns};
+use nalgebra::{DMatrix, SVector, Unit, Vector2, Vector3};
 use opnav::dataset::read_timed_table;
 use opnav::navigation::landing::{
-    FilterKind, LandingConfig, LandingEpoch, LandingError, LandingInput, LandingResult, navigate, write_covariance_csv,
+    BearingObservation, CameraMount, DescentEstimate, DescentState, FilterKind, LandingConfig, LandingEpoch,
+    LandingError, LandingInput, LandingResult, LookAhead, navigate, survives, viewpoint, write_covariance_csv,
     write_estimate_csv,
 };
 use opnav::navigation::landmark::Selector;
@@ -70,6 +71,36 @@ fn lands_from_pixels_over_relief() {
     }
     let bounds = ConsistencyBounds::of_mean(9, flights.len(), 0.999);
     assert!(total.iter().all(|nees| bounds.contains(*nees)), "NEES {total:?}, bounds {bounds:?}");
+}
+
+/// A feature at the edge towards which the ground streams leaves the picture before it has been seen three times more;
+/// one ahead stays.
+#[test]
+fn features_about_to_leave_are_not_chosen() {
+    let (camera, lander_from_camera) = camera();
+    let mount = CameraMount { camera, lander_from_camera };
+    let (before, now) = (truth(95.0), truth(100.0));
+    let increment = exact_increment(&before, &now, 5.0);
+    let state = DescentState {
+        lander_in_site_m: now.position_m,
+        lander_velocity_in_site_m_s: now.velocity_m_s,
+        lander_from_site: now.lander_from_site,
+        landmarks: Vec::new(),
+    };
+    let estimate = DescentEstimate { state: state.clone(), covariance: DMatrix::identity(9, 9) };
+    let view = viewpoint(&estimate, &increment, 1e-3, &LandingConfig::default());
+    let in_picture = |direction_in_site: Vector3<f64>, images: usize| {
+        let direction = Unit::new_normalize(now.lander_from_site * direction_in_site);
+        let bearing = BearingObservation::from_sigma(1, direction, 1e-3);
+        survives(&state, &bearing, &mount, &LookAhead { view: &view, increment: &increment, images, margin_px: 4.0 })
+    };
+    let ahead = view.course_in_site();
+    for (tangent, stays) in [(0.5, true), (-0.2, true), (-0.7, false)] {
+        let direction = ahead * tangent - Vector3::z();
+        assert!(in_picture(direction, 0), "{tangent} is in the picture now");
+        assert_eq!(in_picture(direction, 3), stays, "{tangent} after three more images");
+    }
+    assert!(!in_picture(Vector3::z(), 0));
 }
 
 #[test]
