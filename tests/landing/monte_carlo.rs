@@ -132,3 +132,41 @@ fn uncorrelated_landmark_prior_is_inconsistent() {
     let case = Case { mistake: Mistake::UncorrelatedLandmark, ..REFERENCE };
     assert!(overall_nees(&fly_all(&case, 30)) > 10.0);
 }
+
+/// Prints the reference table: `cargo test --test main print_reference_table -- --ignored --nocapture`.
+#[test]
+#[ignore = "prints a table of 300 runs a row"]
+fn print_reference_table() {
+    let hybrid = |selector| Case { selector, ..REFERENCE };
+    let cases = [
+        ("hybrid, depth error", REFERENCE),
+        ("hybrid, svd", hybrid(Selector::Svd)),
+        ("hybrid, gdop", hybrid(Selector::Gdop)),
+        ("hybrid, condition", hybrid(Selector::Condition)),
+        ("hybrid, random", hybrid(Selector::Random)),
+        ("hybrid, covariance", hybrid(Selector::Covariance)),
+        ("hybrid, 5 landmarks", Case { landmarks: 5, ..REFERENCE }),
+        ("hybrid, none", hybrid(Selector::None)),
+        ("standard, depth error", Case { kind: FilterKind::Standard, ..REFERENCE }),
+        ("standard, none", Case { kind: FilterKind::Standard, ..hybrid(Selector::None) }),
+    ];
+    println!("3 rms at touchdown | converged | horizontal m | z m (believed) | v m/s | roll / pitch ° | NEES");
+    for (name, case) in cases {
+        let runs = fly_all(&case, 300);
+        let mean = |components: [usize; 2]| {
+            3.0 * (components.iter().map(|c| rms(&runs, 198, *c).powi(2)).sum::<f64>() / 2.0).sqrt()
+        };
+        let v = 3.0 * ((3..6).map(|c| rms(&runs, 198, c).powi(2)).sum::<f64>() / 3.0).sqrt();
+        let tilt = [6, 7].map(|c| 3.0 * rms(&runs, 198, c).to_degrees());
+        println!(
+            "{name} | {} | {:.3} | {:.2} ({:.2}) | {v:.3} | {:.3} / {:.3} | {:.2}",
+            converged(&runs),
+            mean([0, 1]),
+            3.0 * rms(&runs, 198, 2),
+            3.0 * believed(&runs, 198, 2),
+            tilt[0],
+            tilt[1],
+            overall_nees(&runs),
+        );
+    }
+}
