@@ -201,6 +201,10 @@ pub fn fly(case: &Case, run: u64) -> Vec<Epoch> {
             increment.velocity_in_before_m_s = now.lander_from_site * -GRAVITY_IN_SITE_M_S2;
         }
         if estimate.state.lander_in_site_m.z > 15.0 {
+            // Three images a landmark, the first of which places it; then another takes over.
+            while let Some(i) = estimate.state.landmarks.iter().position(|l| l.observations >= 2 || l.gated >= 2) {
+                estimate = without_landmark(&estimate, i);
+            }
             let tracks = estimate.state.landmarks.iter().map(|l| l.track_id).chain([0]);
             let seen: Vec<_> = tracks.map(|id| bearing(&now, id, &points[id as usize], &mut random)).collect();
             let model = CorrectionModel {
@@ -212,24 +216,22 @@ pub fn fly(case: &Case, run: u64) -> Vec<Epoch> {
             let Some(corrected) = correct(&estimate, &seen, &model) else { break };
             estimate = corrected.estimate;
             for slot in 0..case.landmarks {
-                let old = estimate.state.landmarks.iter().position(|l| l.slot == slot);
-                if old.is_some_and(|i| {
-                    estimate.state.landmarks[i].observations < 3 && estimate.state.landmarks[i].gated < 2
-                }) {
+                if estimate.state.landmarks.iter().any(|l| l.slot == slot) {
                     continue;
                 }
                 let view = viewpoint(&estimate, &increment, SIGMA_BEARING_RAD, &config);
                 let Some(ideal_m) = case.selector.ideal_landmark_in_site_m(&view, &mut random) else { continue };
-                let turn =
-                    UnitQuaternion::from_axis_angle(&Vector3::z_axis(), slot as f64 * 6.2832 / case.landmarks as f64);
+                let turn = UnitQuaternion::from_axis_angle(
+                    &Vector3::z_axis(),
+                    slot as f64 * std::f64::consts::TAU / case.landmarks as f64,
+                );
                 let wanted = turn * (ideal_m - view.lander_in_site_m);
                 let Some(point_m) = on_ground(&now, &(estimate.state.lander_from_site * wanted), &mut random) else {
                     continue;
                 };
                 points.push(point_m);
                 let first = bearing(&now, points.len() as u64 - 1, &point_m, &mut random);
-                let kept = old.map_or(estimate.clone(), |i| without_landmark(&estimate, i));
-                estimate = with_landmark(&kept, &first, slot, &init).unwrap_or(kept);
+                estimate = with_landmark(&estimate, &first, slot, &init).unwrap_or(estimate);
                 if case.mistake == Mistake::UncorrelatedLandmark {
                     forget_correlations(&mut estimate);
                 }

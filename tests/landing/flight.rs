@@ -27,6 +27,8 @@ pub struct Flight {
     pub longest_track: u64,
     /// 1σ of the designated pixel in the first frame: what track 0 follows is off by as much.
     pub designated_sigma_px: f64,
+    /// 1σ of the tracker's drift off the designated point a frame.
+    pub designated_drift_px: f64,
 }
 
 pub const FLIGHT: Flight = Flight {
@@ -38,6 +40,7 @@ pub const FLIGHT: Flight = Flight {
     tracks: 80,
     longest_track: 12,
     designated_sigma_px: 0.0,
+    designated_drift_px: 0.0,
 };
 
 const RATE_HZ: i64 = 100;
@@ -117,8 +120,17 @@ pub fn fly(flight: &Flight, run: u64) -> LandingInput {
     let mut observations = Vec::new();
     let mut tracks = vec![Track { id: 0, point_m: designated_point_m(flight, run), left: u64::MAX }];
     let mut next_id = 1;
+    let mut drift = random_stream(512, "drift", run);
     for t_ns in &frame_times_ns {
         let site_from_camera = site_from_lander(&truth_at_ns(*t_ns)) * lander_from_camera;
+        if *t_ns > 0 {
+            tracks[0].point_m = slipped_m(
+                flight,
+                &site_from_camera,
+                &tracks[0].point_m,
+                &normal3(&mut drift, flight.designated_drift_px),
+            );
+        }
         let pixel = |point_m: &Vector3<f64>| {
             let pixel = camera.project(&site_from_camera.inverse_transform_point(&(*point_m).into()).coords);
             pixel.filter(|p| camera.contains(p, 0.0))
@@ -145,13 +157,25 @@ pub fn fly(flight: &Flight, run: u64) -> LandingInput {
 
 /// The surface point under the designated pixel.
 fn designated_point_m(flight: &Flight, run: u64) -> Vector3<f64> {
-    let (camera, lander_from_camera) = camera();
-    let site_from_camera = site_from_lander(&truth(0.0)) * lander_from_camera;
-    let site = site_from_camera.inverse_transform_point(&Vector3::zeros().into());
-    let exact = camera.project(&site.coords).expect("the site is in the picture");
+    let site_from_camera = site_from_lander(&truth(0.0)) * camera().1;
     let noise = normal3(&mut random_stream(512, "designated", run), flight.designated_sigma_px);
-    let bearing = camera.unproject(&(exact + noise.xy())).expect("a pinhole");
-    on_ground(flight, &site_from_camera, &bearing).expect("it looks down")
+    slipped_m(flight, &site_from_camera, &Vector3::zeros(), &noise)
+}
+
+/// The surface point that lies `slip_px` (x, y) from another in the picture.
+fn slipped_m(
+    flight: &Flight,
+    site_from_camera: &Isometry3<f64>,
+    point_m: &Vector3<f64>,
+    slip_px: &Vector3<f64>,
+) -> Vector3<f64> {
+    if slip_px.norm() == 0.0 {
+        return *point_m;
+    }
+    let in_camera = site_from_camera.inverse_transform_point(&(*point_m).into());
+    let exact = camera().0.project(&in_camera.coords).expect("the point is in the picture");
+    let bearing = camera().0.unproject(&(exact + slip_px.xy())).expect("a pinhole");
+    on_ground(flight, site_from_camera, &bearing).expect("it looks down")
 }
 
 fn scaled(flight: &Flight, random: &mut ChaCha8Rng) -> opnav::dataset::InitialState {

@@ -71,6 +71,28 @@ fn moved(state: &DescentState, increment: &ImuIncrement) -> DescentState {
     predict(&estimate, increment, &GRAVITY_IN_SITE_M_S2, FilterKind::Hybrid).state
 }
 
+/// The paper's q = [q_v; q_w] and its C(q) = I - 2 q_w [q_v×] + 2 [q_v×]² are our `lander_from_site`, q_v with its sign
+/// changed; equation (1) moves it as the IMU does once the lower left of Ω is -ωᵀ.
+#[test]
+fn attitude_agrees_with_the_papers_quaternion() {
+    let paper = |q: &UnitQuaternion<f64>| (-q.imag(), q.w);
+    let matrix = |(v, w): (Vector3<f64>, f64)| {
+        let k = v.cross_matrix();
+        nalgebra::Matrix3::identity() - k * (2.0 * w) + k * k * 2.0
+    };
+    let before = state();
+    let c = before.lander_from_site;
+    assert!((matrix(paper(&c)) - c.to_rotation_matrix().into_inner()).norm() < 1e-14);
+    let (rate, dt_s) = (Vector3::new(0.3, -0.2, 0.5), 1e-4);
+    let sample = ImuSample { t_ns: 0, rate_in_lander_rad_s: rate, specific_force_in_lander_m_s2: Vector3::zeros() };
+    let after = moved(&before, &ImuIncrement::identity().extended(&sample, dt_s, &NOISE));
+    let (v, w) = paper(&c);
+    let dv = (-rate.cross(&v) + rate * w) * (0.5 * dt_s);
+    let dw = -rate.dot(&v) * (0.5 * dt_s);
+    let expected = after.lander_from_site.to_rotation_matrix().into_inner();
+    assert!((matrix((v + dv, w + dw)) - expected).norm() < 1e-8);
+}
+
 #[test]
 fn retraction_and_error_are_inverse() {
     let d = SVector::<f64, 12>::from_fn(|k, _| 0.03 * (k as f64 - 5.5));

@@ -6,8 +6,11 @@ use opnav::navigation::landing::FilterKind;
 use opnav::navigation::landmark::Selector;
 use opnav::stats::ConsistencyBounds;
 use rayon::prelude::*;
+use std::sync::LazyLock;
 
 const RUNS: u64 = 100;
+
+static REFERENCE_RUNS: LazyLock<Vec<Vec<Epoch>>> = LazyLock::new(|| fly_all(&REFERENCE, RUNS));
 
 fn fly_all(case: &Case, runs: u64) -> Vec<Vec<Epoch>> {
     (0..runs).into_par_iter().map(|run| fly(case, run)).collect()
@@ -36,38 +39,38 @@ fn converged(runs: &[Vec<Epoch>]) -> usize {
 
 #[test]
 fn hybrid_filter_lands_as_the_reference_does() {
-    let runs = fly_all(&REFERENCE, RUNS);
-    assert_eq!(converged(&runs), RUNS as usize);
-    let horizontal_m = 3.0 * (0.5 * (rms(&runs, 198, 0).powi(2) + rms(&runs, 198, 1).powi(2))).sqrt();
+    let runs = &*REFERENCE_RUNS;
+    assert_eq!(converged(runs), RUNS as usize);
+    let horizontal_m = 3.0 * (0.5 * (rms(runs, 198, 0).powi(2) + rms(runs, 198, 1).powi(2))).sqrt();
     assert!((horizontal_m / 0.106 - 1.0).abs() < 0.15, "horizontal 3 rms {horizontal_m} m");
-    let z_m = 3.0 * believed(&runs, 198, 2);
+    let z_m = 3.0 * believed(runs, 198, 2);
     assert!((z_m / 4.53 - 1.0).abs() < 0.05, "z 3 sigma {z_m} m");
     for (component, reference_deg) in [(6, 0.024), (7, 0.012)] {
-        let tilt_deg = 3.0 * rms(&runs, 198, component).to_degrees();
+        let tilt_deg = 3.0 * rms(runs, 198, component).to_degrees();
         assert!((tilt_deg / reference_deg - 1.0).abs() < 0.25, "tilt {component}: 3 rms {tilt_deg}°");
     }
     for second in [60, 120, 182, 198] {
-        let yaw_deg = believed(&runs, second, 8).to_degrees();
+        let yaw_deg = believed(runs, second, 8).to_degrees();
         assert!((1.07..=1.09).contains(&yaw_deg), "yaw sigma {yaw_deg}° at {second} s");
     }
 }
 
 #[test]
 fn hybrid_filter_is_consistent_all_the_way() {
-    let runs = fly_all(&REFERENCE, RUNS);
+    let runs = &*REFERENCE_RUNS;
     let bounds = ConsistencyBounds::of_mean(9, RUNS as usize, 0.9999);
     for second in 30..=182 {
-        let nees = mean_nees(&runs, second);
+        let nees = mean_nees(runs, second);
         assert!(bounds.contains(nees), "NEES {nees} at {second} s, bounds {bounds:?}");
     }
-    let nees = overall_nees(&runs);
+    let nees = overall_nees(runs);
     assert!((0.9..1.1).contains(&nees), "NEES {nees}");
 }
 
 /// Errors sit on the posterior Cramér–Rao bound of the reference.
 #[test]
 fn hybrid_filter_sits_on_the_bound() {
-    let runs = fly_all(&REFERENCE, RUNS);
+    let runs = &*REFERENCE_RUNS;
     let bounds_m = [
         (60, [55.5, 63.5, 87.6]),
         (120, [10.2, 7.86, 18.8]),
@@ -76,7 +79,7 @@ fn hybrid_filter_sits_on_the_bound() {
     ];
     for (second, bound_m) in bounds_m {
         for (component, bound) in bound_m.iter().enumerate() {
-            let ratio = rms(&runs, second, component) / bound;
+            let ratio = rms(runs, second, component) / bound;
             assert!((0.8..1.25).contains(&ratio), "component {component} at {second} s: {ratio} of the bound");
         }
     }
@@ -129,13 +132,41 @@ fn uncorrelated_landmark_prior_is_inconsistent() {
     let case = Case { mistake: Mistake::UncorrelatedLandmark, ..REFERENCE };
     assert!(overall_nees(&fly_all(&case, 30)) > 10.0);
 }
+
+/// Prints the reference table: `cargo test --test main print_reference_table -- --ignored --nocapture`.
 #[test]
-fn debug_bound() {
-    let runs = fly_all(&REFERENCE, 300);
-    for second in [60, 120, 182, 198] {
-        for c in 0..9 {
-            print!("{second} {c}: rms {:.4} P {:.4}; ", rms(&runs, second, c), believed(&runs, second, c));
-        }
-        println!();
+#[ignore = "prints a table of 300 runs a row"]
+fn print_reference_table() {
+    let hybrid = |selector| Case { selector, ..REFERENCE };
+    let cases = [
+        ("hybrid, depth error", REFERENCE),
+        ("hybrid, svd", hybrid(Selector::Svd)),
+        ("hybrid, gdop", hybrid(Selector::Gdop)),
+        ("hybrid, condition", hybrid(Selector::Condition)),
+        ("hybrid, random", hybrid(Selector::Random)),
+        ("hybrid, covariance", hybrid(Selector::Covariance)),
+        ("hybrid, 5 landmarks", Case { landmarks: 5, ..REFERENCE }),
+        ("hybrid, none", hybrid(Selector::None)),
+        ("standard, depth error", Case { kind: FilterKind::Standard, ..REFERENCE }),
+        ("standard, none", Case { kind: FilterKind::Standard, ..hybrid(Selector::None) }),
+    ];
+    println!("3 rms at touchdown | converged | horizontal m | z m (believed) | v m/s | roll / pitch ° | NEES");
+    for (name, case) in cases {
+        let runs = fly_all(&case, 300);
+        let mean = |components: [usize; 2]| {
+            3.0 * (components.iter().map(|c| rms(&runs, 198, *c).powi(2)).sum::<f64>() / 2.0).sqrt()
+        };
+        let v = 3.0 * ((3..6).map(|c| rms(&runs, 198, c).powi(2)).sum::<f64>() / 3.0).sqrt();
+        let tilt = [6, 7].map(|c| 3.0 * rms(&runs, 198, c).to_degrees());
+        println!(
+            "{name} | {} | {:.3} | {:.2} ({:.2}) | {v:.3} | {:.3} / {:.3} | {:.2}",
+            converged(&runs),
+            mean([0, 1]),
+            3.0 * rms(&runs, 198, 2),
+            3.0 * believed(&runs, 198, 2),
+            tilt[0],
+            tilt[1],
+            overall_nees(&runs),
+        );
     }
 }

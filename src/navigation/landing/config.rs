@@ -25,7 +25,8 @@ pub struct LandingConfig {
     pub filter: FilterKind,
     /// How unknown landmarks are chosen (default depth-error).
     pub selector: Selector,
-    /// Number of unknown landmarks observed at a time (default 1).
+    /// Number of unknown landmarks observed at a time (default 1, the paper's; 3 that are kept for 8 observations halve
+    /// the error of the height).
     pub unknown_landmarks: usize,
     /// Accepted observations of an unknown landmark, after the one that initialises it, before another may take its place
     /// (default 3).

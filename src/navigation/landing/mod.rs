@@ -21,6 +21,7 @@ mod navigate;
 mod predict;
 mod recovery;
 mod result;
+mod select;
 mod standard;
 mod state;
 mod step;
