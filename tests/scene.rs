@@ -1,1 +1,32 @@
 //! Tests of the room `scene`.
+
+mod bodies;
+mod descent;
+mod meshes;
+mod scenarios;
+mod tumbling;
+
+use opnav::scene::{DescentScene, Scenario, Scene, SceneError, TumblingScene};
+use std::path::Path;
+
+fn datasets() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/datasets"))
+}
+
+fn scenario(text: &str) -> Result<Scenario, SceneError> {
+    Scenario::parse(text, Path::new("test.toml"), &[])
+}
+
+fn descent(text: &str) -> DescentScene {
+    match scenario(text).unwrap().build(datasets()).unwrap() {
+        Scene::Descent(scene) => *scene,
+        Scene::Tumbling(_) => panic!("not a descent"),
+    }
+}
+
+fn tumbling(text: &str) -> TumblingScene {
+    match scenario(text).unwrap().build(datasets()).unwrap() {
+        Scene::Tumbling(scene) => *scene,
+        Scene::Descent(_) => panic!("not a tumbling body"),
+    }
+}

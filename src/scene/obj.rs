@@ -14,10 +14,16 @@ impl Mesh {
     /// a finite number, a face that names a vertex that is not there, no faces at all, faces of zero area.
     pub fn read_obj(path: &Path, metres_per_unit: f64) -> Result<Mesh, SceneError> {
         super::limits::positive("metres_per_unit", metres_per_unit).map_err(|e| e.in_file(path))?;
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| SceneError::Io { action: "read the shape", path: path.into(), source })?;
-        check_lines(&text)
-            .map_err(|(line, problem)| SceneError::Malformed { path: path.into(), line: line as u64, problem })?;
+        let text = std::fs::read_to_string(path).map_err(|source| SceneError::Io {
+            action: "read the shape",
+            path: path.into(),
+            source,
+        })?;
+        check_lines(&text).map_err(|(line, problem)| SceneError::Malformed {
+            path: path.into(),
+            line: line as u64,
+            problem,
+        })?;
         let unusable = |problem: String| SceneError::Unusable { path: path.into(), problem };
         let options = tobj::LoadOptions { triangulate: true, ..Default::default() };
         let no_material = |_: &Path| Ok((Vec::new(), Default::default()));

@@ -44,8 +44,11 @@ impl Scenario {
     /// # Errors
     /// Names the file and the key of what is missing, unknown, of the wrong type or out of range.
     pub fn read(path: &Path, overrides: &[String]) -> Result<Scenario, SceneError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| SceneError::Io { action: "read the scenario", path: path.into(), source })?;
+        let text = std::fs::read_to_string(path).map_err(|source| SceneError::Io {
+            action: "read the scenario",
+            path: path.into(),
+            source,
+        })?;
         Scenario::parse(&text, path, overrides)
     }
 

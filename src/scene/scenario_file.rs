@@ -67,7 +67,9 @@ impl ScenarioFile {
             (Some(descent), None) => (Mission::Descent(descent), DESCENT_FOV_DEG),
             (None, Some(tumbling)) => (Mission::Tumbling(tumbling), TUMBLING_FOV_DEG),
             (None, None) => return Err(unusable("it has neither a table [descent] nor a table [tumbling]: add one")),
-            (Some(_), Some(_)) => return Err(unusable("it has both a table [descent] and a table [tumbling]: drop one")),
+            (Some(_), Some(_)) => {
+                return Err(unusable("it has both a table [descent] and a table [tumbling]: drop one"));
+            }
         };
         let CameraTable { width_px, height_px, fov_deg: given_deg } = self.camera;
         let camera = CameraConfig { width_px, height_px, fov_deg: given_deg.unwrap_or(fov_deg) };

@@ -49,8 +49,11 @@ impl DescentScene {
             config.schedule.times_ns(&path, interval_ns).map_err(|e| e.under("schedule").under("descent"))?;
         let site_in_lander_m = motion.state(0).site_from_lander.inverse_transform_point(&Point3::origin()).coords;
         let lander_from_camera = config.camera_mount.lander_from_camera(&site_in_lander_m);
-        let sensor =
-            CameraSensor { camera: imager.camera, spacecraft_from_camera: lander_from_camera, rate_hz: config.schedule.rate_hz() };
+        let sensor = CameraSensor {
+            camera: imager.camera,
+            spacecraft_from_camera: lander_from_camera,
+            rate_hz: config.schedule.rate_hz(),
+        };
         let sun_in_reference = config.sun.sun_in_site();
         let view = |t_ns: &i64| View {
             t_ns: *t_ns,

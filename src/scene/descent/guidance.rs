@@ -118,9 +118,8 @@ impl PolynomialGuidance {
         ]);
         let inverse = equations.try_inverse().expect("three different powers are independent");
         let end = Vector3::from(config.final_acceleration_m_s2) * duration * duration;
-        let known = |weight: fn(f64) -> f64| {
-            (0..first_free).map(|k| scaled[k] * weight(k as f64)).sum::<Vector3<f64>>()
-        };
+        let known =
+            |weight: fn(f64) -> f64| (0..first_free).map(|k| scaled[k] * weight(k as f64)).sum::<Vector3<f64>>();
         let right = Matrix3::from_rows(&[
             -known(|_| 1.0).transpose(),
             -known(|k| k).transpose(),

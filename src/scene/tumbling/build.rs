@@ -67,8 +67,7 @@ impl TumblingScene {
 }
 
 fn states(config: &TumblingConfig, body: &RigidBody) -> Vec<AsteroidState> {
-    let mut spin =
-        Spin { asteroid_from_inertial: config.attitude(), rate_in_asteroid_rad_s: config.rate_rad_s() };
+    let mut spin = Spin { asteroid_from_inertial: config.attitude(), rate_in_asteroid_rad_s: config.rate_rad_s() };
     let t_ns = |index: usize| (index as f64 * config.interval_s * 1e9).round() as i64;
     let mut states = Vec::with_capacity(config.frames);
     for index in 0..config.frames {

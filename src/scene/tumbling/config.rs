@@ -75,7 +75,8 @@ impl TumblingConfig {
             limits::within("rate_deg_s", rate_deg_s, -360.0, 360.0)?;
         }
         limits::finite("asteroid_from_inertial", &self.asteroid_from_inertial)?;
-        let norm = Vector3::from_column_slice(&self.asteroid_from_inertial[1..]).norm().hypot(self.asteroid_from_inertial[0]);
+        let norm =
+            Vector3::from_column_slice(&self.asteroid_from_inertial[1..]).norm().hypot(self.asteroid_from_inertial[0]);
         limits::within("asteroid_from_inertial", norm, 0.999, 1.001)
             .map_err(|_| SceneError::out_of_range("asteroid_from_inertial", norm, "its norm must be 1"))?;
         limits::within("fill_fraction", self.fill_fraction, 1e-3, 1.0)?;

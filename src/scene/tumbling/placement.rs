@@ -51,8 +51,8 @@ pub(super) fn center_in_camera_m(
     fill_fraction: f64,
     offset_px: &Vector2<f64>,
 ) -> Vector3<f64> {
-    let half_side =
-        (0.5 * f64::from(camera.width_px) / camera.focal_px.x).min(0.5 * f64::from(camera.height_px) / camera.focal_px.y);
+    let half_side = (0.5 * f64::from(camera.width_px) / camera.focal_px.x)
+        .min(0.5 * f64::from(camera.height_px) / camera.focal_px.y);
     let distance_m = radius_m / (fill_fraction * half_side).atan().sin();
     let sideways = offset_px.component_div(&camera.focal_px);
     Vector3::new(sideways.x, sideways.y, 1.0).normalize() * distance_m
