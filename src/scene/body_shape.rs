@@ -16,13 +16,13 @@ pub struct ProceduralBody {
     pub semi_axes_m: [f64; 3],
     /// The mesh has 20·4ⁿ faces (default n = 6: 81,920).
     pub subdivisions: u32,
-    /// R.m.s. relief over the mean semi-axis (default 0.05).
+    /// R.m.s. relief over the mean semi-axis (default 0.04).
     pub relief: f64,
-    /// Octaves of relief, from a third of the circumference down (default 6).
+    /// Octaves of relief, from a third of the circumference down (default 5).
     pub relief_octaves: u32,
-    /// Number of craters (default 300).
+    /// Number of craters (default 200).
     pub craters: usize,
-    /// Radius of the smallest crater over the mean semi-axis (default 0.03).
+    /// Radius of the smallest crater over the mean semi-axis (default 0.06).
     pub smallest_crater: f64,
     /// Radius of the largest crater over the mean semi-axis (default 0.45).
     pub largest_crater: f64,
@@ -33,10 +33,10 @@ impl Default for ProceduralBody {
         ProceduralBody {
             semi_axes_m: [300.0, 250.0, 220.0],
             subdivisions: 6,
-            relief: 0.05,
-            relief_octaves: 6,
-            craters: 300,
-            smallest_crater: 0.03,
+            relief: 0.04,
+            relief_octaves: 5,
+            craters: 200,
+            smallest_crater: 0.06,
             largest_crater: 0.45,
         }
     }
