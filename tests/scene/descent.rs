@@ -6,7 +6,7 @@ use opnav::dataset::ImuSample;
 use opnav::geometry::{Manifold, so3};
 use opnav::scene::{
     DescentMotion, FrameSchedule, GuidanceConfig, GuidanceProfile, ImuConfig, InitialErrorConfig, PolynomialGuidance,
-    ideal_samples,
+    Scenario, Scene, ideal_samples,
 };
 
 fn path() -> PolynomialGuidance {
@@ -309,4 +309,13 @@ fn landmarks_lie_on_the_ground_at_every_scale() {
     for index in [0, 20, 40, 59] {
         assert!(seen(index) > 20, "picture {index}: {}", seen(index));
     }
+}
+
+#[test]
+fn tilted_scenario_starts_in_the_attitude_of_the_papers_table() {
+    let scenario = Scenario::read(&super::datasets().join("mars_descent_tilted.toml"), &[]).unwrap();
+    let Scene::Descent(scene) = scenario.build(super::datasets()).unwrap() else { panic!("not a descent") };
+    let (roll, pitch, yaw) = scene.lander_states[0].site_from_lander.rotation.euler_angles();
+    let error_deg = Vector3::new(roll, pitch, yaw).map(f64::to_degrees) - Vector3::new(-25.7, -9.8, 0.0);
+    assert!(error_deg.abs().max() < 0.05, "{error_deg}");
 }
