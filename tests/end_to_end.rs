@@ -26,7 +26,7 @@ fn navigate_descent(images: &Path, out: &Path) {
     let request = LandRequest {
         folder: images.into(),
         out: out.into(),
-        config: LandingConfig::default(),
+        config: LandingConfig::from_pixels(),
         front_end: FrontEndConfig::default(),
     };
     land(&request, &Silent).expect("the descent is navigated");

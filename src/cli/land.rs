@@ -74,7 +74,7 @@ pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineErr
         filter: arguments.filter.into(),
         gravity_m_s2: arguments.gravity,
         seed: arguments.seed,
-        ..LandingConfig::default()
+        ..LandingConfig::from_pixels()
     };
     let request = LandRequest {
         folder: arguments.folder.clone(),

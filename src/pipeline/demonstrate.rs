@@ -77,7 +77,7 @@ fn demonstrate_landing(out: &Path, images: &Path, progress: &dyn Progress) -> Re
     let request = LandRequest {
         folder: images.into(),
         out: out.join("landing"),
-        config: LandingConfig::default(),
+        config: LandingConfig::from_pixels(),
         front_end: FrontEndConfig::default(),
     };
     land(&request, progress)?;

@@ -66,13 +66,27 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
     };
     let start = Instant::now();
     progress.begin("navigating", input.frame_times_ns.len());
-    let result = navigate(&input, &request.config, &|done| progress.advance_to(done))?;
+    let config = with_designated_errors(&request.config, &front_end);
+    let result = navigate(&input, &config, &|done| progress.advance_to(done))?;
     progress.end();
     summary.timing_ms.insert("filter".into(), start.elapsed().as_secs_f64() * 1e3);
     describe(&result, &mut summary);
     write_result(&request.out, &sequence, (&front_end, &result))?;
     summary.write(&request.out)?;
     Ok(summary)
+}
+
+/// The filter's options with what the front end says of the designated point: 1σ of the pixel that names it, and of each
+/// step of its track.
+fn with_designated_errors(config: &LandingConfig, front_end: &FrontEnd) -> LandingConfig {
+    let steps = &front_end.designated;
+    let Some(first) = steps.first() else { return config.clone() };
+    let variance_px2 = steps.iter().skip(1).map(|s| s.step_sigma_px.powi(2)).sum::<f64>();
+    LandingConfig {
+        designated_sigma_px: first.step_sigma_px,
+        designated_drift_px: (variance_px2 / (steps.len() - 1).max(1) as f64).sqrt(),
+        ..config.clone()
+    }
 }
 
 fn write_result(

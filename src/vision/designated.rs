@@ -44,7 +44,7 @@ pub(super) fn carry_designated(
     let mut steps = vec![DesignatedStep {
         t_ns: chosen[first].t_ns,
         pixel_px: start.pixel_px,
-        step_sigma_px: 0.0,
+        step_sigma_px: (0.5 * start.covariance_px2.trace()).sqrt(),
         covariance_px2: start.covariance_px2,
         t_ns_from: chosen[first].t_ns,
         refined: false,

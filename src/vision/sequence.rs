@@ -296,7 +296,7 @@ impl super::front_end::DesignatedStep {
             t_ns: self.t_ns,
             track_id: TrackObservation::DESIGNATED,
             pixel_px: self.pixel_px,
-            sigma_px: (0.5 * self.covariance_px2.trace()).sqrt(),
+            sigma_px: self.step_sigma_px,
             response: 0.0,
         }
     }

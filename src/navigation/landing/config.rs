@@ -75,6 +75,12 @@ impl Default for LandingConfig {
 }
 
 impl LandingConfig {
+    /// Options for bearings from real pictures: three unknown landmarks at a time, each kept for at least eight
+    /// observations, since long tracks bring the parallax that short ones lack.
+    pub fn from_pixels() -> Self {
+        LandingConfig { unknown_landmarks: 3, reselect_after: 8, ..LandingConfig::default() }
+    }
+
     /// Gravity in the site frame, m/s².
     pub fn gravity_in_site_m_s2(&self) -> Vector3<f64> {
         Vector3::new(0.0, 0.0, -self.gravity_m_s2)
