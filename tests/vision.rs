@@ -2,3 +2,4 @@
 
 mod bearings;
 mod rotation;
+mod tumbling;
