@@ -131,7 +131,9 @@ impl Fits {
         starts.extend(planes.iter().filter_map(|p| {
             Unit::try_new(p.translation, 1e-9).map(|direction| General { rotation: p.rotation, direction })
         }));
-        starts.extend(turns.iter().flat_map(|q| Vector3::identity_axes().map(|d| General { rotation: *q, direction: d })));
+        starts.extend(
+            turns.iter().flat_map(|q| Vector3::identity_axes().map(|d| General { rotation: *q, direction: d })),
+        );
         starts.retain(|s| small(&s.rotation));
         Fits {
             generals: fit_generals(&starts, sights, widest),
@@ -176,18 +178,17 @@ impl Fits {
         let best = (0..ends.len()).min_by(|a, b| misfit(&ends[*a]).total_cmp(&misfit(&ends[*b])))?;
         let end = ends[best].model.rotation;
         let nearest = |target: &UnitQuaternion<f64>| {
-            (0..rivals.len()).min_by(|a, b| {
-                apart(&rivals[*a].rotation(), target).total_cmp(&apart(&rivals[*b].rotation(), target))
-            })
+            (0..rivals.len())
+                .min_by(|a, b| apart(&rivals[*a].rotation(), target).total_cmp(&apart(&rivals[*b].rotation(), target)))
         };
         let chosen = nearest(&end)?;
         let separation = (0..rivals.len())
             .filter(|i| *i != chosen)
             .map(|i| apart(&rivals[i].rotation(), &rivals[chosen].rotation()))
             .fold(f64::INFINITY, f64::min);
-        let clear = ends.iter().all(|e| {
-            apart(&e.model.rotation, &end) < 0.1 * separation || misfit(e) > misfit(&ends[best]) + CLEAR_CHI2
-        });
+        let clear = ends
+            .iter()
+            .all(|e| apart(&e.model.rotation, &end) < 0.1 * separation || misfit(e) > misfit(&ends[best]) + CLEAR_CHI2);
         (clear && apart(&rivals[chosen].rotation(), &end) < 0.35 * separation).then_some(chosen)
     }
 
@@ -195,7 +196,8 @@ impl Fits {
     pub(super) fn rivals(&self, winner: &Candidate, sights: &[Sight], config: &RotationConfig) -> Vec<Candidate> {
         const CLOSE_CHI2: f64 = 9.0;
         let sigma = winner.covariance().map_or(config.max_sigma_rad, |c| c.trace().max(0.0).sqrt());
-        let apart = |c: &Candidate| so3::log(&(c.rotation() * winner.rotation().inverse())).norm() > (3.0 * sigma).max(1e-3);
+        let apart =
+            |c: &Candidate| so3::log(&(c.rotation() * winner.rotation().inverse())).norm() > (3.0 * sigma).max(1e-3);
         let as_good = |c: &Candidate| {
             let scale = winner.scale();
             c.gric(sights, scale) < winner.gric(sights, scale) + CLOSE_CHI2

@@ -52,8 +52,7 @@ fn describe_with_orb(
         let point = Point2f::new(feature.pixel_px.x as f32, feature.pixel_px.y as f32);
         key_points.push(KeyPoint::new_point(point, PATCH_PX as f32, angle_deg, 0.0, 0, index as i32)?);
     }
-    let mut orb =
-        ORB::create(features.len() as i32, 1.2, 1, EDGE_PX, 0, 2, ORB_ScoreType::HARRIS_SCORE, PATCH_PX, 20)?;
+    let mut orb = ORB::create(features.len() as i32, 1.2, 1, EDGE_PX, 0, 2, ORB_ScoreType::HARRIS_SCORE, PATCH_PX, 20)?;
     let mut bits = Mat::default();
     orb.detect_and_compute(&picture_mat(picture)?, &no_array(), &mut key_points, &mut bits, true)?;
     let mut descriptors = vec![None; features.len()];

@@ -74,10 +74,8 @@ fn carry(
 ) -> Option<DesignatedStep> {
     let (a, b) = (&chain.frames[past.frame].features, &chain.frames[frame].features);
     let shared = numbers.shared(past.frame, frame);
-    let pairs: Vec<(Vector2<f64>, Vector2<f64>, f64)> = shared
-        .into_iter()
-        .map(|(i, j)| (a[i].pixel_px, b[j].pixel_px, a[i].sigma_px.hypot(b[j].sigma_px)))
-        .collect();
+    let pairs: Vec<(Vector2<f64>, Vector2<f64>, f64)> =
+        shared.into_iter().map(|(i, j)| (a[i].pixel_px, b[j].pixel_px, a[i].sigma_px.hypot(b[j].sigma_px))).collect();
     let adjacent = frame == past.frame + 1;
     let local = fit_affine(&past.step.pixel_px, &pairs, if adjacent { 8 } else { 16 })?;
     let scale = local.affine.linear.determinant().abs().sqrt();

@@ -31,8 +31,7 @@ impl FrameFeatures {
         let load_ms = milliseconds(start);
         let start = Instant::now();
         let about_center = config.mode == FrontEndMode::FixedCenter;
-        let mask =
-            about_center.then(|| inside_silhouette(&picture, config.fixed_center.limb_margin_px)).transpose()?;
+        let mask = about_center.then(|| inside_silhouette(&picture, config.fixed_center.limb_margin_px)).transpose()?;
         let centroid_px = if about_center { bright_centroid_px(&picture)? } else { None };
         let features = detect_harris(&picture, mask.as_ref(), &config.detector)?;
         let detect_ms = milliseconds(start);

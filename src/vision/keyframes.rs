@@ -19,8 +19,7 @@ pub(super) fn keyframe_rotations(
     let spans = job.config.keyframe_spans.iter().filter(|s| **s >= 2);
     let count = chain.frames.len();
     let all: Vec<(usize, usize)> = {
-        let mut all: Vec<_> =
-            spans.flat_map(|s| (0..count.saturating_sub(*s)).map(move |k| (k, k + s))).collect();
+        let mut all: Vec<_> = spans.flat_map(|s| (0..count.saturating_sub(*s)).map(move |k| (k, k + s))).collect();
         all.sort_unstable();
         all.dedup();
         all

@@ -54,14 +54,9 @@ impl Best {
 ///
 /// # Errors
 /// OpenCV's refusal.
-pub fn match_features(
-    from: Described,
-    to: Described,
-    config: &MatcherConfig,
-) -> Result<Vec<IndexMatch>, VisionError> {
-    let present = |d: Described| -> Vec<usize> {
-        (0..d.descriptors.len()).filter(|i| d.descriptors[*i].is_some()).collect()
-    };
+pub fn match_features(from: Described, to: Described, config: &MatcherConfig) -> Result<Vec<IndexMatch>, VisionError> {
+    let present =
+        |d: Described| -> Vec<usize> { (0..d.descriptors.len()).filter(|i| d.descriptors[*i].is_some()).collect() };
     let (rows, columns) = (present(from), present(to));
     if rows.is_empty() || columns.is_empty() {
         return Ok(Vec::new());

@@ -80,11 +80,7 @@ fn near_epipole(matrix: &Matrix3<f64>, sight: &Sight) -> f64 {
     REACH * REACH * mixed.trace()
 }
 
-fn transfer_whitening(
-    matrix: &Matrix3<f64>,
-    sight: &Sight,
-    p: &nalgebra::Vector3<f64>,
-) -> nalgebra::Matrix2<f64> {
+fn transfer_whitening(matrix: &Matrix3<f64>, sight: &Sight, p: &nalgebra::Vector3<f64>) -> nalgebra::Matrix2<f64> {
     let projection = nalgebra::Matrix2x3::new(1.0, 0.0, -p.x / p.z, 0.0, 1.0, -p.y / p.z) / p.z;
     let by_from = projection * matrix.fixed_columns::<2>(0);
     let covariance = sight.to_covariance + by_from * sight.from_covariance * by_from.transpose();
@@ -287,7 +283,6 @@ fn finish<const N: usize, M: PairModel<N>>(model: M, sights: &[Sight], scale: f6
     let inside: f64 = agreeing.iter().map(|s| residual(M::RELATION, &matrix, s).norm_squared()).sum();
     let freedom = (agreeing.len() * rows) as f64 - N as f64;
     let variance = if freedom > 0.0 { inside / freedom } else { f64::INFINITY };
-    let covariance =
-        information.cholesky().filter(|_| variance.is_finite()).map(|c| c.inverse() * variance.max(9e-4));
+    let covariance = information.cholesky().filter(|_| variance.is_finite()).map(|c| c.inverse() * variance.max(9e-4));
     PairFit { model, covariance, inliers, scale: variance.sqrt().max(0.03) }
 }

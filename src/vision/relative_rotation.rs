@@ -210,8 +210,7 @@ fn judge_turn(turn: &PairFit<3, Turn>, sights: &[Sight], config: &RotationConfig
         return Err(PairStatus::NoMotion);
     }
     let ahead = sights.iter().map(|s| s.from_ray().normalize()).sum::<Vector3<f64>>();
-    let plane =
-        Plane { rotation: turn.model.0, translation: Vector3::zeros(), normal: Unit::new_normalize(ahead) };
+    let plane = Plane { rotation: turn.model.0, translation: Vector3::zeros(), normal: Unit::new_normalize(ahead) };
     let loss = super::pair_fit::Loss::Truncated(3.45 * turn.scale);
     let normal = super::pair_fit::normal_equations(&KnownPlane(plane), sights, loss);
     let covariance = normal.information.try_inverse().ok_or(PairStatus::Degenerate)? * turn.scale.powi(2);

@@ -6,8 +6,7 @@ use crate::dataset::{DatasetError, write_atomically};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use std::path::Path;
 
-const HEADER: &str =
-    "t_ns_from,t_ns_to,qw,qx,qy,qz,sigma_x_rad,sigma_y_rad,sigma_z_rad,matches,inliers,model,status";
+const HEADER: &str = "t_ns_from,t_ns_to,qw,qx,qy,qz,sigma_x_rad,sigma_y_rad,sigma_z_rad,matches,inliers,model,status";
 
 impl RotationModel {
     /// The model's word in files.

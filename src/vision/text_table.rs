@@ -42,11 +42,8 @@ pub(super) fn read_rows<T>(
         return Err(DatasetError::Missing { path: path.into(), cure });
     }
     let text = std::fs::read_to_string(path).map_err(DatasetError::io("read", path))?;
-    let malformed = |line: usize, problem: String| DatasetError::Malformed {
-        path: path.into(),
-        line: line as u64 + 1,
-        problem,
-    };
+    let malformed =
+        |line: usize, problem: String| DatasetError::Malformed { path: path.into(), line: line as u64 + 1, problem };
     let found = text.lines().next().unwrap_or("").trim().trim_start_matches('#').trim();
     if found.split(',').map(str::trim).ne(header.split(',')) {
         return Err(malformed(0, format!("the header is '{found}', and '{header}' is expected")));

@@ -123,6 +123,7 @@ pub fn median(mut values: Vec<f64>) -> f64 {
 pub fn median_angle_deg(covariance: &Matrix3<f64>) -> f64 {
     let factor = covariance.cholesky().unwrap().l();
     let mut random = random_stream(1, "median", 0);
-    let draw = |_| (factor * Vector3::from_fn(|_, _| -> f64 { StandardNormal.sample(&mut random) })).norm().to_degrees();
+    let draw =
+        |_| (factor * Vector3::from_fn(|_, _| -> f64 { StandardNormal.sample(&mut random) })).norm().to_degrees();
     median((0..4000).map(draw).collect())
 }
