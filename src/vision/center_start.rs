@@ -151,7 +151,7 @@ pub(super) fn is_near_side(model: &AboutCenter, sights: &[Sight]) -> bool {
     let t = model.translation();
     let (mut near, mut seen) = (0, 0);
     for s in sights {
-        let (a, b) = ((model.rotation * s.from_ray()).normalize(), s.to_ray().normalize());
+        let (a, b) = ((model.rotation * s.first_ray()).normalize(), s.second_ray().normalize());
         let across = a.cross(&b);
         if across.norm_squared() < 16.0 * (s.from_covariance.trace() + s.to_covariance.trace()) {
             continue;

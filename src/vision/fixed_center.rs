@@ -207,10 +207,9 @@ fn is_stray(rate: &Vector3<f64>, expected: &Vector3<f64>, config: &FixedCenterCo
 fn drop_strays(found: &mut [Option<AboutCenter>], pairs: &[CenteredPair], config: &FixedCenterConfig) {
     let rates: Vec<_> = found.iter().zip(pairs).map(|(f, p)| rate(f, p)).collect();
     for (index, slot) in found.iter_mut().enumerate() {
-        if let (Some(own), Some(expected)) = (rates[index], neighbours_rate(&rates, index)) {
-            if is_stray(&own, &expected, config) {
-                *slot = None;
-            }
+        let both = rates[index].zip(neighbours_rate(&rates, index));
+        if both.is_some_and(|(own, expected)| is_stray(&own, &expected, config)) {
+            *slot = None;
         }
     }
 }
