@@ -1,7 +1,7 @@
 //! Candidate motions of a picture pair, and the choice among them.
 
 use super::pair_fit::{Loss, PairFit, PairModel, cost, descend, fit, residual};
-use super::pair_models::{General, Plane, Turn};
+use super::pair_models::{General, Heading, Plane, Turn};
 use super::relative_rotation::facing;
 use super::sight::Sight;
 use super::{PairHints, RotationConfig, RotationModel, usac};
@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 #[derive(Debug, Clone)]
 pub(super) enum Candidate {
     General(PairFit<5, General>),
-    Plane(PairFit<8, Plane>),
+    Plane(Box<PairFit<8, Plane>>),
     Turn(PairFit<3, Turn>),
 }
 
@@ -80,6 +80,14 @@ impl Candidate {
         }
     }
 
+    fn squares(&self, sights: &[Sight], scale: f64) -> Vec<f64> {
+        match self {
+            Candidate::General(f) => squares::<5, _>(&f.model, sights, scale),
+            Candidate::Plane(f) => squares::<8, _>(&f.model, sights, scale),
+            Candidate::Turn(f) => squares::<3, _>(&f.model, sights, scale),
+        }
+    }
+
     /// Torr's geometric robust information criterion (1998), at noise `scale`.
     fn gric(&self, sights: &[Sight], scale: f64) -> f64 {
         match self {
@@ -110,6 +118,9 @@ pub(super) struct Fits {
 /// Matches used to compare starts; the winners are refined on all.
 const SCREENING: usize = 250;
 
+/// A residual beyond this many σ counts no further when rivals are compared.
+const GATE_SIGMA: f64 = 3.0;
+
 /// By how much a match the GRIC of general motion must lie below the plane's.
 const GENERAL_HANDICAP: f64 = 0.25;
 
@@ -131,9 +142,9 @@ impl Fits {
         starts.extend(planes.iter().filter_map(|p| {
             Unit::try_new(p.translation, 1e-9).map(|direction| General { rotation: p.rotation, direction })
         }));
-        starts.extend(
-            turns.iter().flat_map(|q| Vector3::identity_axes().map(|d| General { rotation: *q, direction: d })),
-        );
+        starts.extend(turns.iter().flat_map(|q| {
+            [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()].map(|d| General { rotation: *q, direction: d })
+        }));
         starts.retain(|s| small(&s.rotation));
         Fits {
             generals: fit_generals(&starts, sights, widest),
@@ -158,53 +169,54 @@ impl Fits {
 
     fn all(&self) -> impl Iterator<Item = Candidate> + '_ {
         let generals = self.generals.iter().cloned().map(Candidate::General);
-        let planes = self.planes.iter().cloned().map(Candidate::Plane);
+        let planes = self.planes.iter().cloned().map(|f| Candidate::Plane(Box::new(f)));
         generals.chain(planes).chain(self.turn.iter().cloned().map(Candidate::Turn))
     }
 
-    /// Which of rival planes the relief favours: each is a start of general motion, and the fits must differ clearly, or
-    /// all end at the same rotation. `None` where relief does not tell.
-    pub(super) fn favoured_by_relief(&self, rivals: &[Candidate], sights: &[Sight], widest: f64) -> Option<usize> {
-        const CLEAR_CHI2: f64 = 25.0;
-        let ends: Vec<PairFit<5, General>> = rivals
-            .iter()
-            .map(|c| c.direction().map(|direction| fit(General { rotation: c.rotation(), direction }, sights, widest)))
-            .collect::<Option<_>>()?;
-        let scale = ends.iter().map(|e| e.scale).fold(f64::INFINITY, f64::min);
-        let misfit = |e: &PairFit<5, General>| {
-            2.0 * cost::<5, _>(&e.model, sights, Loss::Truncated(3.0 * scale)) / scale.powi(2)
+    /// Which of rival planes the relief favours: each rotation is held, its direction of translation freed, and the misfit
+    /// to the epipolar lines must differ clearly. `None` where relief does not tell.
+    pub(super) fn favoured_by_relief(&self, rivals: &[Candidate], sights: &[Sight]) -> Option<usize> {
+        let scale = self.all().map(|c| c.scale()).fold(f64::INFINITY, f64::min);
+        let held = |c: &Candidate| -> Option<Vec<f64>> {
+            let start = Heading(General { rotation: c.rotation(), direction: c.direction()? });
+            let best = descend(start, sights, Loss::Truncated(GATE_SIGMA * scale), 15).0;
+            Some(squares::<2, _>(&best, sights, scale))
         };
-        let apart = |a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>| so3::log(&(a * b.inverse())).norm();
-        let best = (0..ends.len()).min_by(|a, b| misfit(&ends[*a]).total_cmp(&misfit(&ends[*b])))?;
-        let end = ends[best].model.rotation;
-        let nearest = |target: &UnitQuaternion<f64>| {
-            (0..rivals.len())
-                .min_by(|a, b| apart(&rivals[*a].rotation(), target).total_cmp(&apart(&rivals[*b].rotation(), target)))
-        };
-        let chosen = nearest(&end)?;
-        let separation = (0..rivals.len())
-            .filter(|i| *i != chosen)
-            .map(|i| apart(&rivals[i].rotation(), &rivals[chosen].rotation()))
-            .fold(f64::INFINITY, f64::min);
-        let clear = ends
-            .iter()
-            .all(|e| apart(&e.model.rotation, &end) < 0.1 * separation || misfit(e) > misfit(&ends[best]) + CLEAR_CHI2);
-        (clear && apart(&rivals[chosen].rotation(), &end) < 0.35 * separation).then_some(chosen)
+        let misfits: Vec<Vec<f64>> = rivals.iter().map(held).collect::<Option<_>>()?;
+        let total = |i: usize| misfits[i].iter().sum::<f64>();
+        let best = (0..misfits.len()).min_by(|a, b| total(*a).total_cmp(&total(*b)))?;
+        (0..misfits.len()).all(|i| i == best || is_clearly_worse(&misfits[i], &misfits[best])).then_some(best)
     }
 
-    /// Motions of the winner's kind with another rotation that explain the matches as well as it does.
+    /// Motions of the winner's kind with another rotation that do not explain the matches clearly worse.
     pub(super) fn rivals(&self, winner: &Candidate, sights: &[Sight], config: &RotationConfig) -> Vec<Candidate> {
-        const CLOSE_CHI2: f64 = 9.0;
         let sigma = winner.covariance().map_or(config.max_sigma_rad, |c| c.trace().max(0.0).sqrt());
-        let apart =
-            |c: &Candidate| so3::log(&(c.rotation() * winner.rotation().inverse())).norm() > (3.0 * sigma).max(1e-3);
-        let as_good = |c: &Candidate| {
-            let scale = winner.scale();
-            c.gric(sights, scale) < winner.gric(sights, scale) + CLOSE_CHI2
-        };
+        let off = |c: &Candidate| so3::log(&(c.rotation() * winner.rotation().inverse())).norm();
+        let apart = |c: &Candidate| off(c) > (3.0 * sigma).max(1e-3);
+        let best = winner.squares(sights, winner.scale());
+        let as_good = |c: &Candidate| !is_clearly_worse(&c.squares(sights, winner.scale()), &best);
         let same_kind = |c: &Candidate| c.model() == winner.model() && !matches!(c, Candidate::Turn(_));
         self.all().filter(|c| same_kind(c) && apart(c) && as_good(c)).collect()
     }
+}
+
+/// Squared residuals over the noise's variance, none beyond the gate.
+fn squares<const N: usize, M: PairModel<N>>(model: &M, sights: &[Sight], scale: f64) -> Vec<f64> {
+    let matrix = model.matrix().0;
+    let square = |s: &Sight| residual(M::RELATION, &matrix, s).norm_squared() / scale.powi(2);
+    sights.iter().map(|s| square(s).min(GATE_SIGMA * GATE_SIGMA)).collect()
+}
+
+/// Whether one model's squared residuals exceed another's by more than 3σ of their difference (Vuong 1989): neither model
+/// contains the other, so chance makes their sums differ by much more than a χ² with few degrees of freedom.
+fn is_clearly_worse(squares: &[f64], best: &[f64]) -> bool {
+    const CLEAR_SIGMA: f64 = 3.0;
+    let (mut sum, mut sum_of_squares) = (0.0, 0.0);
+    for (a, b) in squares.iter().zip(best) {
+        sum += a - b;
+        sum_of_squares += (a - b).powi(2);
+    }
+    sum > CLEAR_SIGMA * sum_of_squares.sqrt()
 }
 
 /// Screens the starts on some matches, then refines the distinct best on all; those behind the camera are dropped.
@@ -241,7 +253,7 @@ fn fit_generals(starts: &[General], sights: &[Sight], widest: f64) -> Vec<PairFi
 }
 
 fn is_visible(plane: &Plane, sights: &[Sight]) -> bool {
-    let ahead = sights.iter().filter(|s| plane.normal.dot(&s.from_ray()) > 0.0).count();
+    let ahead = sights.iter().filter(|s| plane.normal.dot(&s.first_ray()) > 0.0).count();
     ahead * 10 >= sights.len() * 9
 }
 
@@ -250,14 +262,4 @@ fn nearest_turn(h: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {
     let svd = h.svd(true, true);
     let r = svd.u? * svd.v_t?;
     (r.determinant() > 0.0).then(|| UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(r)))
-}
-
-trait Axes {
-    fn identity_axes() -> [Unit<Vector3<f64>>; 3];
-}
-
-impl Axes for Vector3<f64> {
-    fn identity_axes() -> [Unit<Vector3<f64>>; 3] {
-        [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()]
-    }
 }

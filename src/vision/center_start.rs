@@ -50,6 +50,17 @@ impl CenterView {
         view
     }
 
+    /// The same pair with at most `count` of its matches, evenly chosen.
+    pub(super) fn thinned(&self, count: usize) -> Self {
+        let step = self.sights.len().div_ceil(count).max(1);
+        CenterView {
+            sights: self.sights.iter().step_by(step).copied().collect(),
+            kept: Vec::new(),
+            five_point: self.five_point.clone(),
+            ..*self
+        }
+    }
+
     fn select(&mut self, all: &[Option<Sight>], usable: &[Sight], problem: &CenterProblem) {
         let (focal_px, config) = (problem.camera.mean_focal_px(), problem.rotation);
         if is_still(usable) {
@@ -110,7 +121,7 @@ pub(super) fn best_start(
     starts: &[UnitQuaternion<f64>],
     config: &RotationConfig,
 ) -> Option<AboutCenter> {
-    const SCREENING: usize = 150;
+    const SCREENING: usize = 100;
     if view.failure.is_some() || view.sights.len() < config.min_matches {
         return None;
     }
@@ -140,7 +151,7 @@ pub(super) fn is_near_side(model: &AboutCenter, sights: &[Sight]) -> bool {
     let t = model.translation();
     let (mut near, mut seen) = (0, 0);
     for s in sights {
-        let (a, b) = ((model.rotation * s.from_ray()).normalize(), s.to_ray().normalize());
+        let (a, b) = ((model.rotation * s.first_ray()).normalize(), s.second_ray().normalize());
         let across = a.cross(&b);
         if across.norm_squared() < 16.0 * (s.from_covariance.trace() + s.to_covariance.trace()) {
             continue;

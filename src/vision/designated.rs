@@ -7,13 +7,13 @@
 
 use super::VisionError;
 use super::front_end::DesignatedStep;
-use super::local_affine::{Affine, fit_affine};
+use super::local_affine::{Affine, Match, fit_affine};
 use super::patch::refine_by_patch;
 use super::sequence::{Chain, Job};
 use super::tracks::TrackNumbers;
 use crate::dataset::{DesignatedPoint, Frame};
 use image::GrayImage;
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Matrix2;
 use std::collections::VecDeque;
 
 /// Pictures back to which the point may be tied.
@@ -74,7 +74,7 @@ fn carry(
 ) -> Option<DesignatedStep> {
     let (a, b) = (&chain.frames[past.frame].features, &chain.frames[frame].features);
     let shared = numbers.shared(past.frame, frame);
-    let pairs: Vec<(Vector2<f64>, Vector2<f64>, f64)> =
+    let pairs: Vec<Match> =
         shared.into_iter().map(|(i, j)| (a[i].pixel_px, b[j].pixel_px, a[i].sigma_px.hypot(b[j].sigma_px))).collect();
     let adjacent = frame == past.frame + 1;
     let local = fit_affine(&past.step.pixel_px, &pairs, if adjacent { 8 } else { 16 })?;

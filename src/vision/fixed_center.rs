@@ -5,7 +5,7 @@
 //! not. The centre starts at the centroid of the bright silhouette and is refined over all pairs at once.
 
 use super::center_start::{CenterView, best_start, is_near_side};
-use super::pair_fit::{Loss, Normal, fit, normal_equations, observed_information};
+use super::pair_fit::{Loss, Normal, cost, fit, normal_equations, observed_information};
 use super::pair_models::{AboutCenter, WithCenter};
 use super::sight::Sight;
 use super::{FixedCenterConfig, PairSolution, PairStatus, PixelMatches, RotationConfig, RotationModel};
@@ -50,25 +50,86 @@ pub struct CenterProblem<'a> {
 }
 
 /// Solves all pairs of a sequence; pairs in time order, so that the rate gate can compare neighbours.
+///
+/// Motion mostly in the picture's plane has a reversed rival with a displaced centre. So several first guesses of the
+/// centre are followed on a few pairs, and the one that explains them best is taken for all.
 pub fn rotations_about_center(pairs: &[CenteredPair], problem: &CenterProblem) -> CenterSolution {
     let views: Vec<CenterView> = pairs.par_iter().map(|p| CenterView::new(p, problem)).collect();
-    let mut center = problem.center_guess;
-    let mut covariance = Matrix2::identity() * problem.config.center_sigma_rad.powi(2);
-    let mut found: Vec<Option<AboutCenter>> =
-        views.par_iter().map(|v| best_start(v, center, &v.predicted_starts(), problem.rotation)).collect();
-    for _ in 0..6 {
-        drop_strays(&mut found, pairs, problem.config);
-        let before = center;
-        (center, covariance) = refine_center(&views, &found, center, problem);
-        found = views.par_iter().zip(&found).map(|(v, f)| f.map(|f| moved_to(center, f, v))).collect();
-        if center.angle(&before) < 1e-7 {
-            break;
-        }
-    }
+    let thinned: Vec<CenterView> = views.iter().map(|v| v.thinned(200)).collect();
+    let few = Joint::few(&thinned, pairs);
+    let ends: Vec<(f64, Unit<Vector3<f64>>)> =
+        guesses(problem).par_iter().map(|guess| few.settle(*guess, problem)).map(|j| (j.cost, j.center)).collect();
+    let best = ends.iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(problem.center_guess, |e| e.1);
+    let Settled { center, covariance, mut found, .. } =
+        Joint { views: views.iter().collect(), pairs: pairs.to_vec() }.settle(best, problem);
     drop_strays(&mut found, pairs, problem.config);
     solve_again(&mut found, &views, pairs, (center, problem));
     let solved = views.par_iter().zip(&found).map(|(v, f)| finish(v, *f, &covariance, problem.rotation)).collect();
     CenterSolution { center_in_camera: center, center_covariance_rad2: covariance, pairs: solved }
+}
+
+/// The first guess, and eight points about it at its 1σ.
+fn guesses(problem: &CenterProblem) -> Vec<Unit<Vector3<f64>>> {
+    let basis = so3::tangent_basis(&problem.center_guess);
+    let ring = (0..8).map(|k| {
+        let angle = f64::from(k) * std::f64::consts::FRAC_PI_4;
+        let off = Vector2::new(angle.cos(), angle.sin()) * problem.config.center_sigma_rad;
+        Unit::new_normalize(problem.center_guess.into_inner() + basis * off)
+    });
+    std::iter::once(problem.center_guess).chain(ring).collect()
+}
+
+/// Pairs that share a centre.
+struct Joint<'a> {
+    views: Vec<&'a CenterView>,
+    pairs: Vec<CenteredPair<'a>>,
+}
+
+/// A centre with the rotations about it.
+struct Settled {
+    center: Unit<Vector3<f64>>,
+    covariance: Matrix2<f64>,
+    found: Vec<Option<AboutCenter>>,
+    cost: f64,
+}
+
+impl<'a> Joint<'a> {
+    /// At most six pairs, evenly chosen.
+    fn few(views: &'a [CenterView], pairs: &[CenteredPair<'a>]) -> Self {
+        let step = views.len().div_ceil(6).max(1);
+        let chosen = (0..views.len()).step_by(step);
+        Joint { views: chosen.clone().map(|k| &views[k]).collect(), pairs: chosen.map(|k| pairs[k]).collect() }
+    }
+
+    /// Rotations about a first guess, then centre and rotations in turns until the centre rests.
+    fn settle(&self, guess: Unit<Vector3<f64>>, problem: &CenterProblem) -> Settled {
+        let mut center = guess;
+        let mut covariance = Matrix2::identity() * problem.config.center_sigma_rad.powi(2);
+        let start = |v: &&CenterView| best_start(v, center, &v.predicted_starts(), problem.rotation);
+        let mut found: Vec<Option<AboutCenter>> = self.views.par_iter().map(start).collect();
+        for _ in 0..12 {
+            drop_strays(&mut found, &self.pairs, problem.config);
+            let before = center;
+            (center, covariance) = refine_center(&self.views, &found, center, problem);
+            let moved = |(v, f): (&&CenterView, &Option<AboutCenter>)| f.map(|f| moved_to(center, f, v));
+            found = self.views.par_iter().zip(&found).map(moved).collect();
+            if center.angle(&before) < 1e-6 {
+                break;
+            }
+        }
+        let prior = (center.angle(&problem.center_guess) / problem.config.center_sigma_rad).powi(2);
+        let cost = self.views.iter().zip(&found).map(|(v, f)| pair_cost(v, f)).sum::<f64>() + prior;
+        Settled { center, covariance, found, cost }
+    }
+}
+
+/// Truncated misfit of a pair; an unsolved one costs as if every match were wrong.
+fn pair_cost(view: &CenterView, found: &Option<AboutCenter>) -> f64 {
+    const GATE: f64 = 3.0;
+    match found {
+        Some(model) => 2.0 * cost::<3, _>(model, &view.sights, Loss::Truncated(GATE)),
+        None => GATE * GATE * view.sights.len() as f64,
+    }
 }
 
 /// Solves one pair about a known centre, from a predicted rotation.
@@ -88,7 +149,7 @@ fn moved_to(center: Unit<Vector3<f64>>, found: AboutCenter, view: &CenterView) -
 
 /// Newton step of the centre over all solved pairs, their rotations eliminated (Schur complement).
 fn refine_center(
-    views: &[CenterView],
+    views: &[&CenterView],
     found: &[Option<AboutCenter>],
     center: Unit<Vector3<f64>>,
     problem: &CenterProblem,
@@ -146,10 +207,9 @@ fn is_stray(rate: &Vector3<f64>, expected: &Vector3<f64>, config: &FixedCenterCo
 fn drop_strays(found: &mut [Option<AboutCenter>], pairs: &[CenteredPair], config: &FixedCenterConfig) {
     let rates: Vec<_> = found.iter().zip(pairs).map(|(f, p)| rate(f, p)).collect();
     for (index, slot) in found.iter_mut().enumerate() {
-        if let (Some(own), Some(expected)) = (rates[index], neighbours_rate(&rates, index)) {
-            if is_stray(&own, &expected, config) {
-                *slot = None;
-            }
+        let both = rates[index].zip(neighbours_rate(&rates, index));
+        if both.is_some_and(|(own, expected)| is_stray(&own, &expected, config)) {
+            *slot = None;
         }
     }
 }

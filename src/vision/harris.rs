@@ -21,10 +21,10 @@ pub struct Feature {
 }
 
 /// What the surface's own change between two pictures costs, px: the error that is left without noise.
-const FLOOR_SIGMA_PX: f64 = 0.1;
+const FLOOR_SIGMA_PX: f64 = 0.06;
 
 /// The peak of the Harris response is not the optimal use of the window: ratio to the structure tensor's bound.
-const PEAK_FACTOR: f64 = 2.0;
+const PEAK_FACTOR: f64 = 1.3;
 
 /// Finds at most `max_features` Harris corners of a picture, in order of response; where `mask` is given, only where it
 /// is not zero.

@@ -8,13 +8,16 @@ use super::{PairHints, PairSolution, PairStatus, RelativeRotation, VisionError, 
 use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
+/// The centre of rotation with its covariance, in the fixed-centre mode.
+type Center<'a> = Option<&'a (Unit<Vector3<f64>>, Matrix2<f64>)>;
+
 /// Solves the keyframe pairs of all spans, in order of the first picture, then of the span. A pair whose chained rotation
 /// is unknown or too large, or with too few shared tracks, is left out.
 pub(super) fn keyframe_rotations(
     job: &Job,
     chain: &Chain,
     numbers: &TrackNumbers,
-    center: Option<&(Unit<Vector3<f64>>, Matrix2<f64>)>,
+    center: Center<'_>,
 ) -> Result<Vec<RelativeRotation>, VisionError> {
     let spans = job.config.keyframe_spans.iter().filter(|s| **s >= 2);
     let count = chain.frames.len();
@@ -32,7 +35,7 @@ fn keyframe(
     job: &Job,
     chain: &Chain,
     numbers: &TrackNumbers,
-    ((from, to), center): ((usize, usize), Option<&(Unit<Vector3<f64>>, Matrix2<f64>)>),
+    ((from, to), center): ((usize, usize), Center<'_>),
 ) -> Result<Option<RelativeRotation>, VisionError> {
     let Some(chained) = chained_rotation(chain, from, to) else { return Ok(None) };
     let shared = numbers.shared(from, to);

@@ -15,6 +15,9 @@ impl Affine {
     }
 }
 
+/// A match: pixel before, pixel after, σ of their difference in px.
+pub(super) type Match = (Vector2<f64>, Vector2<f64>, f64);
+
 /// An affine map and the 1σ in px of where it puts the point.
 pub(super) struct LocalFit {
     pub(super) affine: Affine,
@@ -26,11 +29,7 @@ const NEAREST: usize = 40;
 
 /// Robust weighted fit to the nearest matches (from, to, σ in px); `None` with fewer than `fewest`, or where the point lies
 /// outside of what they span. Near matches weigh more: curvature of the ground grows with the square of the distance.
-pub(super) fn fit_affine(
-    about_px: &Vector2<f64>,
-    matches: &[(Vector2<f64>, Vector2<f64>, f64)],
-    fewest: usize,
-) -> Option<LocalFit> {
+pub(super) fn fit_affine(about_px: &Vector2<f64>, matches: &[Match], fewest: usize) -> Option<LocalFit> {
     let mut near: Vec<_> = matches.iter().map(|m| ((m.0 - about_px).norm(), m)).collect();
     near.sort_by(|a, b| a.0.total_cmp(&b.0));
     near.truncate(NEAREST);
@@ -42,9 +41,7 @@ pub(super) fn fit_affine(
     let mut weights = prior.clone();
     let mut fit = solve(about_px, &near, &weights)?;
     for _ in 0..6 {
-        let residual = |(_, m): &(f64, &(Vector2<f64>, Vector2<f64>, f64))| {
-            (m.1 - fit.0 * (m.0 - about_px).push(1.0)).norm() / m.2
-        };
+        let residual = |(_, m): &(f64, &Match)| (m.1 - fit.0 * (m.0 - about_px).push(1.0)).norm() / m.2;
         let sizes: Vec<f64> = near.iter().map(residual).collect();
         let mut sorted = sizes.clone();
         sorted.sort_by(f64::total_cmp);
@@ -64,11 +61,7 @@ pub(super) fn fit_affine(
 type Map = nalgebra::Matrix2x3<f64>;
 
 /// Weighted least squares about the point: the map, and the inverse of its normal matrix.
-fn solve(
-    about_px: &Vector2<f64>,
-    near: &[(f64, &(Vector2<f64>, Vector2<f64>, f64))],
-    weights: &[f64],
-) -> Option<(Map, Matrix3<f64>)> {
+fn solve(about_px: &Vector2<f64>, near: &[(f64, &Match)], weights: &[f64]) -> Option<(Map, Matrix3<f64>)> {
     let (mut normal, mut right) = (Matrix3::zeros(), nalgebra::Matrix3x2::zeros());
     for ((_, m), w) in near.iter().zip(weights) {
         let row: Vector3<f64> = (m.0 - about_px).push(1.0);

@@ -108,7 +108,7 @@ fn all_distances(from: &[u8], to: &[u8]) -> opencv::Result<Mat> {
     let a = Mat::new_rows_cols_with_data((from.len() / 32) as i32, 32, from)?;
     let b = Mat::new_rows_cols_with_data((to.len() / 32) as i32, 32, to)?;
     let mut distances = Mat::default();
-    batch_distance(&a, &b, &mut distances, CV_32S, &mut no_array(), NORM_HAMMING as i32, 0, &no_array(), 0, false)?;
+    batch_distance(&a, &b, &mut distances, CV_32S, &mut no_array(), NORM_HAMMING, 0, &no_array(), 0, false)?;
     Ok(distances)
 }
 

@@ -54,14 +54,14 @@ pub(super) struct Normal<const N: usize> {
 pub(super) fn residual(relation: Relation, matrix: &Matrix3<f64>, sight: &Sight) -> Vector2<f64> {
     match relation {
         Relation::Epipolar => {
-            let (left, right) = (matrix.tr_mul(&sight.to_ray()), matrix * sight.from_ray());
+            let (left, right) = (matrix.tr_mul(&sight.second_ray()), matrix * sight.first_ray());
             let (g1, g2) = (left.xy(), right.xy());
             let variance = g1.dot(&(sight.from_covariance * g1)) + g2.dot(&(sight.to_covariance * g2));
             let variance = variance + near_epipole(matrix, sight);
-            Vector2::new(sight.to_ray().dot(&right) / variance.max(1e-300).sqrt(), 0.0)
+            Vector2::new(sight.second_ray().dot(&right) / variance.max(1e-300).sqrt(), 0.0)
         }
         Relation::Transfer => {
-            let p = matrix * sight.from_ray();
+            let p = matrix * sight.first_ray();
             if p.z <= 1e-9 {
                 return Vector2::new(1e6, 1e6);
             }
@@ -96,7 +96,7 @@ fn linearized<const N: usize>(
     sight: &Sight,
 ) -> (Vector2<f64>, SMatrix<f64, 2, N>, SVector<f64, N>) {
     let mut jacobian = SMatrix::<f64, 2, N>::zeros();
-    let (x1, x2) = (sight.from_ray(), sight.to_ray());
+    let (x1, x2) = (sight.first_ray(), sight.second_ray());
     match relation {
         Relation::Epipolar => {
             let (g1, right) = (matrix.tr_mul(&x2).xy(), matrix * x1);

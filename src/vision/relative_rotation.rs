@@ -100,7 +100,7 @@ pub fn relative_rotation(
     let plausible = plausible(&usable, &planes, essential.as_ref(), widest);
     let kept: Vec<Sight> = usable.iter().zip(&plausible).filter(|(_, keep)| **keep).map(|(s, _)| *s).collect();
     let fits = Fits::new(&kept, widest, homography.as_ref(), essential.as_ref(), hints, config);
-    let mut solution = judge(&fits, (&kept, usable.len(), widest), hints, config);
+    let mut solution = judge(&fits, (&kept, usable.len()), hints, config);
     solution.inliers = spread(&spread(&solution.inliers, plausible.iter().copied()), all.iter().map(Option::is_some));
     Ok(solution)
 }
@@ -114,7 +114,7 @@ fn spread(flags: &[bool], chosen: impl Iterator<Item = bool>) -> Vec<bool> {
 /// Whether most matches follow a homography that turns the scene inside out.
 fn is_mirror_image(h: &Matrix3<f64>, sights: &[Sight], focal_px: f64, config: &RotationConfig) -> bool {
     let agrees = |s: &&Sight| {
-        let p = h * s.from_ray();
+        let p = h * s.first_ray();
         p.z > 0.0 && (p.xy() / p.z - s.to).norm() * focal_px < 2.0 * config.threshold_px
     };
     h.determinant() < 0.0 && sights.iter().filter(agrees).count() * 3 > sights.len()
@@ -123,7 +123,7 @@ fn is_mirror_image(h: &Matrix3<f64>, sights: &[Sight], focal_px: f64, config: &R
 /// Chooses a model, then holds the winner against every gate.
 fn judge(
     fits: &Fits,
-    (sights, offered, widest): (&[Sight], usize, f64),
+    (sights, offered): (&[Sight], usize),
     hints: &PairHints,
     config: &RotationConfig,
 ) -> PairSolution {
@@ -140,7 +140,7 @@ fn judge(
     }
     let mut all = fits.rivals(&winner, sights, config);
     all.insert(0, winner.clone());
-    let relief = || fits.favoured_by_relief(&all, sights, widest);
+    let relief = || fits.favoured_by_relief(&all, sights);
     let chosen = match choose(&all, relief, hints, config) {
         Ok(chosen) => all.swap_remove(chosen),
         Err(status) => return refused(status),
@@ -209,7 +209,7 @@ fn judge_turn(turn: &PairFit<3, Turn>, sights: &[Sight], config: &RotationConfig
     if surprise < CHI2_3_AT_999 || still < STILL_PX_SIGMA {
         return Err(PairStatus::NoMotion);
     }
-    let ahead = sights.iter().map(|s| s.from_ray().normalize()).sum::<Vector3<f64>>();
+    let ahead = sights.iter().map(|s| s.first_ray().normalize()).sum::<Vector3<f64>>();
     let plane = Plane { rotation: turn.model.0, translation: Vector3::zeros(), normal: Unit::new_normalize(ahead) };
     let loss = super::pair_fit::Loss::Truncated(3.45 * turn.scale);
     let normal = super::pair_fit::normal_equations(&KnownPlane(plane), sights, loss);
@@ -257,7 +257,7 @@ impl Cheirality {
     pub(super) fn of(rotation: UnitQuaternion<f64>, t: &Vector3<f64>, sights: &[Sight]) -> Self {
         let mut count = Cheirality { ahead: 0, seen: 0 };
         for s in sights {
-            let (a, b) = ((rotation * s.from_ray()).normalize(), s.to_ray().normalize());
+            let (a, b) = ((rotation * s.first_ray()).normalize(), s.second_ray().normalize());
             let across = a.cross(&b);
             let sine2 = across.norm_squared();
             if sine2 < 16.0 * (s.from_covariance.trace() + s.to_covariance.trace()) {

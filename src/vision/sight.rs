@@ -15,12 +15,12 @@ pub(super) struct Sight {
 
 impl Sight {
     /// The first picture's ray (x/z, y/z, 1).
-    pub(super) fn from_ray(&self) -> Vector3<f64> {
+    pub(super) fn first_ray(&self) -> Vector3<f64> {
         self.from.push(1.0)
     }
 
     /// The second picture's ray (x/z, y/z, 1).
-    pub(super) fn to_ray(&self) -> Vector3<f64> {
+    pub(super) fn second_ray(&self) -> Vector3<f64> {
         self.to.push(1.0)
     }
 }

@@ -54,7 +54,7 @@ pub(super) fn homography(sights: &[Sight], focal_px: f64, config: &RotationConfi
     let mut singular: Vec<f64> = h.singular_values().iter().copied().collect();
     singular.sort_by(f64::total_cmp);
     let h = h / singular[1];
-    let ahead = sights.iter().filter(|s| s.to_ray().dot(&(h * s.from_ray())) > 0.0).count();
+    let ahead = sights.iter().filter(|s| s.second_ray().dot(&(h * s.first_ray())) > 0.0).count();
     Some(if 2 * ahead < sights.len() { -h } else { h })
 }
 

@@ -1,0 +1,67 @@
+//! Cost of the front end on a 1024² picture with 2000 features, one thread.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use image::GrayImage;
+use nalgebra::Vector2;
+use opnav::geometry::Camera;
+use opnav::vision::*;
+use std::hint::black_box;
+
+/// A deterministic fractal texture, sampled at `place`.
+fn picture(place: impl Fn(f64, f64) -> (f64, f64)) -> GrayImage {
+    let lattice = |x: i64, y: i64| {
+        let h = (x.wrapping_mul(73_856_093) ^ y.wrapping_mul(19_349_663)) as u64;
+        let h = (h ^ (h >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        ((h ^ (h >> 32)) & 0xffff) as f64 / 65535.0 - 0.5
+    };
+    let noise = |x: f64, y: f64| {
+        let (i, j) = (x.floor(), y.floor());
+        let smooth = |t: f64| t * t * (3.0 - 2.0 * t);
+        let (s, t) = (smooth(x - i), smooth(y - j));
+        let at = |a: i64, b: i64| lattice(i as i64 + a, j as i64 + b);
+        (at(0, 0) * (1.0 - s) + at(1, 0) * s) * (1.0 - t) + (at(0, 1) * (1.0 - s) + at(1, 1) * s) * t
+    };
+    GrayImage::from_fn(1024, 1024, |u, v| {
+        let (x, y) = place(f64::from(u), f64::from(v));
+        let octave = |k: i32| 0.7f64.powi(k) * noise(x / f64::from(128 >> k) + 9.1, y / f64::from(128 >> k) + 3.7);
+        image::Luma([(128.0 + 130.0 * (0..6).map(octave).sum::<f64>()).clamp(0.0, 255.0) as u8])
+    })
+}
+
+fn front_end(criterion: &mut Criterion) {
+    let (a, b) = (picture(|x, y| (x, y)), picture(|x, y| (1.03 * x + 0.03 * y - 15.0, 1.03 * y - 0.03 * x + 4.0)));
+    let config = DetectorConfig { max_features: 2000, ..DetectorConfig::default() };
+    let features = [&a, &b].map(|p| detect_harris(p, None, &config).expect("features"));
+    let bits = [(&a, 0), (&b, 1)].map(|(p, i)| describe(p, &features[i], Orientation::Upright).expect("bits"));
+    let described = [0, 1].map(|i| Described { features: &features[i], descriptors: &bits[i] });
+    let matcher = MatcherConfig::default();
+    let found = match_features(described[0], described[1], &matcher).expect("matches");
+    let pair = MatchedPair {
+        from_px: found.iter().map(|m| features[0][m.from].pixel_px).collect(),
+        to_px: found.iter().map(|m| features[1][m.to].pixel_px).collect(),
+    };
+    let sigma_px = vec![0.2; found.len()];
+    let camera = Camera::from_fov(1024, 1024, 1.0);
+    println!("{} features, {} matches", features[0].len(), found.len());
+    criterion.bench_function("detect and refine 2000", |bench| {
+        bench.iter(|| detect_harris(black_box(&a), None, &config));
+    });
+    criterion.bench_function("describe 2000", |bench| {
+        bench.iter(|| describe(black_box(&a), &features[0], Orientation::Upright));
+    });
+    criterion.bench_function("match 2000 x 2000", |bench| {
+        bench.iter(|| match_features(black_box(described[0]), described[1], &matcher));
+    });
+    let still = |p: &Vector2<f64>| Some((p + Vector2::new(15.0, -4.0)) / 1.03);
+    criterion.bench_function("match 2000 x 2000 within 60 px", |bench| {
+        bench.iter(|| match_features_guided(black_box(described[0]), described[1], &still, &matcher));
+    });
+    criterion.bench_function("rotation of a pair", |bench| {
+        let matches = PixelMatches { pair: &pair, sigma_px: &sigma_px };
+        bench
+            .iter(|| relative_rotation(black_box(matches), &camera, &PairHints::default(), &RotationConfig::default()));
+    });
+}
+
+criterion_group!(benches, front_end);
+criterion_main!(benches);

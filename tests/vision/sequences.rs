@@ -1,0 +1,176 @@
+//! The front end over small sequences on disk.
+
+use super::bearings::{angle_deg, median};
+use super::texture::*;
+use image::GrayImage;
+use nalgebra::{Isometry3, Matrix2, Translation3, UnitQuaternion, Vector2, Vector3};
+use opnav::dataset::*;
+use opnav::geometry::{Camera, so3};
+use opnav::vision::*;
+use std::collections::HashMap;
+use std::path::Path;
+
+const SIDE: u32 = 320;
+
+fn camera() -> Camera {
+    Camera::from_fov(SIDE, SIDE, 60f64.to_radians())
+}
+
+/// Camera pose in the site frame, looking down, at frame `k` of a descent.
+fn pose(k: usize) -> Isometry3<f64> {
+    let t = k as f64;
+    let down = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
+    let turn = so3::exp(&Vector3::new(0.02 * t, 0.015 * t, 0.03 * t));
+    Isometry3::from_parts(Translation3::new(4.0 * t, 3.0 * t, 300.0 - 8.0 * t), down * turn)
+}
+
+fn frame(k: usize) -> GrayImage {
+    picture(SIDE, SIDE, 1.0, k as u64, |p| ground(&camera(), &pose(k), p).xy())
+}
+
+fn t_ns(k: usize) -> i64 {
+    (k as i64 + 1) * 1_000_000_000
+}
+
+fn write(folder: &Path, pictures: impl Iterator<Item = GrayImage>) -> ImageSequence {
+    let sensor = CameraSensor { camera: camera(), spacecraft_from_camera: Isometry3::identity(), rate_hz: None };
+    write_camera_sensor(&folder.join("cam0/sensor.yaml"), &sensor).unwrap();
+    for (k, picture) in pictures.enumerate() {
+        write_grey_png(&folder.join(format!("cam0/data/{}.png", t_ns(k))), &picture).unwrap();
+    }
+    ImageSequence::open(folder, &CameraSource::Folder).unwrap()
+}
+
+fn true_rotation(from: usize, to: usize) -> UnitQuaternion<f64> {
+    pose(to).rotation.inverse() * pose(from).rotation
+}
+
+fn index(t: i64) -> usize {
+    (t / 1_000_000_000 - 1) as usize
+}
+
+fn config() -> FrontEndConfig {
+    let detector = DetectorConfig { max_features: 400, ..DetectorConfig::default() };
+    FrontEndConfig { detector, ..FrontEndConfig::default() }
+}
+
+fn gyro(from: i64, to: i64) -> UnitQuaternion<f64> {
+    so3::exp(&Vector3::new(0.001, 0.0005, -0.001)) * true_rotation(index(from), index(to))
+}
+
+/// Everything but the times.
+fn without_times(mut result: FrontEnd) -> FrontEnd {
+    for f in &mut result.frames {
+        (f.load_ms, f.detect_ms, f.describe_ms, f.match_ms, f.rotation_ms) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    }
+    result
+}
+
+#[test]
+fn a_descent_over_a_plane_gives_rotations_tracks_and_the_designated_point() {
+    let folder = tempfile::tempdir().unwrap();
+    let sequence = write(folder.path(), (0..10).map(frame));
+    let start = camera().project(&(pose(0).inverse() * nalgebra::Point3::new(20.0, 10.0, 0.0)).coords).unwrap();
+    let designated = DesignatedPoint { t_ns: t_ns(0), pixel_px: start, covariance_px2: Matrix2::identity() * 0.01 };
+    let inputs = TrackInputs { rotation_prior: Some(&gyro), designated: Some(designated), ..TrackInputs::default() };
+    let result = track_sequence(&sequence, &config(), &inputs, &|_| ()).unwrap();
+
+    assert!(result.rotations[..9].windows(2).all(|w| w[0].t_ns_to == w[1].t_ns_from));
+    assert!(result.rotations.len() > 9 + 15, "keyframe pairs follow");
+    for r in &result.rotations {
+        assert_eq!(r.status, PairStatus::Ok);
+        let error_deg = angle_deg(&true_rotation(index(r.t_ns_from), index(r.t_ns_to)), &r.camera_to_from_camera_from);
+        let sigma_deg = r.covariance_rad2.trace().sqrt().to_degrees();
+        assert!(error_deg < 0.15 && error_deg < 4.0 * sigma_deg, "{error_deg} degrees, sigma {sigma_deg}");
+    }
+
+    let mut first: HashMap<u64, Vector3<f64>> = HashMap::new();
+    let (mut errors, mut last) = (Vec::new(), i64::MIN);
+    for o in result.observations.iter().filter(|o| o.track_id != TrackObservation::DESIGNATED) {
+        assert!(o.t_ns >= last);
+        last = o.t_ns;
+        let here = pose(index(o.t_ns));
+        let place = *first.entry(o.track_id).or_insert_with(|| ground(&camera(), &here, o.pixel_px));
+        errors.push(
+            (camera().project(&(here.inverse() * nalgebra::Point3::from(place)).coords).unwrap() - o.pixel_px).norm(),
+        );
+    }
+    assert!(first.len() > 200 && errors.len() > 4 * first.len() / 2, "{} tracks, {}", first.len(), errors.len());
+    assert!(median(errors) < 0.35);
+
+    assert_eq!(result.designated.len(), 10);
+    for step in &result.designated {
+        let truth = (pose(index(step.t_ns)).inverse() * nalgebra::Point3::new(20.0, 10.0, 0.0)).coords;
+        let off = step.pixel_px - camera().project(&truth).unwrap();
+        let sigma = (0.5 * step.covariance_px2.trace()).sqrt();
+        assert!(off.norm() < 0.4 && off.norm() < 4.5 * sigma, "{} px at sigma {sigma}", off.norm());
+    }
+}
+
+#[test]
+fn the_designated_point_ends_where_it_leaves_the_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let shifted = |k: usize| picture(SIDE, SIDE, 1.0, k as u64, move |p| p + Vector2::new(20.0 * k as f64, 0.0));
+    let sequence = write(folder.path(), (0..6).map(shifted));
+    let designated =
+        DesignatedPoint { t_ns: t_ns(0), pixel_px: Vector2::new(60.0, 150.0), covariance_px2: Matrix2::identity() };
+    let inputs = TrackInputs { designated: Some(designated), ..TrackInputs::default() };
+    let result = track_sequence(&sequence, &config(), &inputs, &|_| ()).unwrap();
+    assert_eq!(result.designated.len(), 3, "60, 40, 20 px, and then the edge");
+    assert!((result.designated[2].pixel_px - Vector2::new(20.0, 150.0)).norm() < 0.3);
+    assert_eq!(result.observations.iter().filter(|o| o.track_id == TrackObservation::DESIGNATED).count(), 3);
+}
+
+#[test]
+fn black_pictures_and_a_camera_at_rest_are_outcomes() {
+    let folder = tempfile::tempdir().unwrap();
+    let pictures = [frame(0), GrayImage::new(SIDE, SIDE), frame(2), frame(2), frame(3)];
+    let sequence = write(folder.path(), pictures.into_iter());
+    let result = track_sequence(&sequence, &config(), &TrackInputs::default(), &|_| ()).unwrap();
+    let statuses: Vec<PairStatus> = result.rotations[..4].iter().map(|r| r.status).collect();
+    assert_eq!(statuses[..3], [PairStatus::NoFeatures, PairStatus::NoFeatures, PairStatus::NoMotion]);
+    assert!(result.rotations[..3].iter().all(|r| r.model == RotationModel::None));
+    assert_eq!(result.frames[1].features, 0);
+}
+
+#[test]
+fn the_result_is_the_same_at_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let sequence = write(folder.path(), (0..10).map(frame));
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let inputs = TrackInputs { rotation_prior: Some(&gyro), ..TrackInputs::default() };
+        without_times(pool.install(|| track_sequence(&sequence, &config(), &inputs, &|_| ()).unwrap()))
+    };
+    assert_eq!(run(1), run(3));
+}
+
+#[test]
+fn frames_can_be_chosen_and_one_is_too_few() {
+    let folder = tempfile::tempdir().unwrap();
+    let sequence = write(folder.path(), (0..5).map(frame));
+    let read = std::sync::atomic::AtomicUsize::new(0);
+    let progress = |_| {
+        read.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+    };
+    let inputs = TrackInputs { frames: 1..9, every: 2, ..TrackInputs::default() };
+    let result = track_sequence(&sequence, &config(), &inputs, &progress).unwrap();
+    let times: Vec<i64> = result.frames.iter().map(|f| f.t_ns).collect();
+    assert_eq!(times, [t_ns(1), t_ns(3)]);
+    assert_eq!(read.into_inner(), 2);
+    let inputs = TrackInputs { frames: 4..5, ..TrackInputs::default() };
+    let error = track_sequence(&sequence, &config(), &inputs, &|_| ()).unwrap_err();
+    assert!(error.to_string().contains("at least two pictures are needed"));
+    let wrong = FrontEndConfig { keyframe_max_angle_rad: -1.0, ..config() };
+    let error = track_sequence(&sequence, &wrong, &TrackInputs::default(), &|_| ()).unwrap_err();
+    assert!(error.to_string().contains("keyframe_max_angle_rad is -1"));
+}
+
+#[test]
+fn a_broken_picture_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let sequence = write(folder.path(), (0..3).map(frame));
+    std::fs::write(&sequence.frames[1].path, b"not a picture").unwrap();
+    let error = track_sequence(&sequence, &config(), &TrackInputs::default(), &|_| ()).unwrap_err();
+    assert!(error.to_string().contains(&format!("{}.png", t_ns(1))), "{error}");
+}
