@@ -46,7 +46,6 @@ fn rank_of(order: usize, matrix: &DMatrix<f64>) -> ObservabilityRank {
     let singular_values: Vec<f64> = by_size.iter().map(|&i| svd.singular_values[i]).collect();
     let rank = singular_values.iter().filter(|&&s| s > floor).count();
     let null: Vec<_> = by_size[rank..].iter().map(|&i| right.row(i).transpose()).collect();
-    let unobservable =
-        if null.is_empty() { DMatrix::zeros(matrix.ncols(), 0) } else { DMatrix::from_columns(&null) };
+    let unobservable = if null.is_empty() { DMatrix::zeros(matrix.ncols(), 0) } else { DMatrix::from_columns(&null) };
     ObservabilityRank { order, rank, singular_values, unobservable }
 }

@@ -117,7 +117,12 @@ impl TumblingConfig {
             ("realtime-start-s", self.realtime_start_s, 0.0, "give a positive number of seconds, such as 60"),
             ("realtime-clones", self.realtime_clones as f64, 1.0, "keep at least 2 attitudes, such as 24"),
             ("paper.process-variance", self.paper.process_variance, 0.0, "give a positive variance, such as 0.001"),
-            ("paper.measurement-variance", self.paper.measurement_variance, 0.0, "give a positive variance, such as 0.001"),
+            (
+                "paper.measurement-variance",
+                self.paper.measurement_variance,
+                0.0,
+                "give a positive variance, such as 0.001",
+            ),
             ("paper.initial-variance", self.paper.initial_variance, 0.0, "give a positive variance, such as 1"),
         ];
         for (key, value, floor, cure) in above {

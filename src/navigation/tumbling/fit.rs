@@ -98,10 +98,8 @@ impl FitProblem<'_> {
 
     fn evaluate(&self, guess: &Guess) -> Option<Fit> {
         let (inertia, ratios_by_shape) = guess.shape.ratios()?;
-        let start = SpinState {
-            asteroid_from_inertial: UnitQuaternion::identity(),
-            rate_in_asteroid_rad_s: guess.rate_rad_s,
-        };
+        let start =
+            SpinState { asteroid_from_inertial: UnitQuaternion::identity(), rate_in_asteroid_rad_s: guess.rate_rad_s };
         let points = propagate(&start, &inertia, self.times_s)?;
         let (mut information, mut gradient) = (Matrix8::zeros(), Vector8::zeros());
         let mut cost = self.prior_terms(&inertia).2;

@@ -1,8 +1,8 @@
 //! First guess of the motion in closed form, without differentiating anything.
 
+use super::FreeBody;
 use super::inertia::InertiaShape;
 use super::pair::RotationPair;
-use super::FreeBody;
 use crate::geometry::so3::{exp, log};
 use nalgebra::{Matrix3, SMatrix, SymmetricEigen, UnitQuaternion, Vector3};
 
@@ -57,7 +57,8 @@ fn interval_rates(pairs: &[RotationPair], times_s: &[f64]) -> Option<Vec<Vector3
 fn gated_rate(raw: &[Option<Vector3<f64>>], k: usize) -> Option<Vector3<f64>> {
     let mut reach = 2;
     let neighbours: Vec<Vector3<f64>> = loop {
-        let found: Vec<_> = raw[k.saturating_sub(reach)..(k + reach + 1).min(raw.len())].iter().flatten().copied().collect();
+        let found: Vec<_> =
+            raw[k.saturating_sub(reach)..(k + reach + 1).min(raw.len())].iter().flatten().copied().collect();
         if found.len() >= 3 || reach > raw.len() {
             break found;
         }

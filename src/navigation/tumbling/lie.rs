@@ -11,11 +11,7 @@ type Gradient<const R: usize> = SMatrix<f64, R, 11>;
 /// for [`rank_by_order`](crate::navigation::observability::rank_by_order). Rows are Taylor coefficients over the power of
 /// the rate, `c_k / |ω|^k`; columns are (δq_v, δω / |ω|, δl), all without unit. Source: Deng et al. 2024, equations 15 to
 /// 20. `None` at rest, for a singular tensor, and at half a turn, where the vector part is no chart of the rotations.
-pub fn lie_derivatives(
-    state: &SpinState,
-    inertia: &InertiaRatios,
-    highest_order: usize,
-) -> Option<Vec<DMatrix<f64>>> {
+pub fn lie_derivatives(state: &SpinState, inertia: &InertiaRatios, highest_order: usize) -> Option<Vec<DMatrix<f64>>> {
     let speed = state.rate_in_asteroid_rad_s.norm();
     let tensor = inertia.tensor();
     let inverse = tensor.try_inverse()?;

@@ -68,9 +68,8 @@ pub(super) fn usable_pairs(
 
 fn checked_pair(rotation: &RelativeRotation, frame_times_ns: &[i64]) -> Result<RotationPair, TumblingError> {
     let (t_ns_from, t_ns_to) = (rotation.t_ns_from, rotation.t_ns_to);
-    let find = |t_ns: i64| {
-        frame_times_ns.binary_search(&t_ns).map_err(|_| TumblingError::UnknownPair { t_ns_from, t_ns_to })
-    };
+    let find =
+        |t_ns: i64| frame_times_ns.binary_search(&t_ns).map_err(|_| TumblingError::UnknownPair { t_ns_from, t_ns_to });
     let (from, to) = (find(t_ns_from)?, find(t_ns_to)?);
     if from >= to {
         return Err(TumblingError::UnknownPair { t_ns_from, t_ns_to });

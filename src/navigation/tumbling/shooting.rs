@@ -2,11 +2,12 @@
 
 use super::determinacy::{INERTIA_UNIT, UndeterminedDirection, projector, undetermined_directions};
 use super::fit::{Fit, FitProblem};
-use super::initial::initial_guesses;
+use super::inertia::InertiaShape;
+use super::initial::{Guess, initial_guesses};
 use super::pair::RotationPair;
 use super::{TumblingConfig, TumblingError};
 use crate::navigation::observability::FisherInformation;
-use nalgebra::{DMatrix, SMatrix};
+use nalgebra::{DMatrix, Matrix3, SMatrix};
 
 /// Picture intervals that the first arc holds at least.
 const LEAST_INTERVALS: usize = 20;
@@ -19,6 +20,16 @@ const MEDIAN_CHI_SQUARED_3: f64 = 2.365_974;
 
 /// Misfit in standard deviations beyond which the pairs and the motion have nothing to do with each other.
 const HOPELESS_SIGMA: f64 = 30.0;
+
+/// Directions with less than this many times the least information are held loosely.
+const LOOSE_MARGIN: f64 = 10.0;
+
+/// Information that ties the ratios to a sphere's, so that the motion is a pure spin.
+const SPHERE_PRIOR: f64 = 1e12;
+
+/// Drop of χ² that a tumble must bring over a pure spin to be believed: its five more unknowns bring 5 by noise alone,
+/// and 30 once in 70 000 times.
+const NUTATION_SIGNIFICANCE: f64 = 30.0;
 
 const MOST_REJECTION_ROUNDS: usize = 6;
 
@@ -92,7 +103,8 @@ fn fit_robustly(
     start: &Fit,
     config: &TumblingConfig,
 ) -> Fit {
-    let mut fit = FitProblem { pairs, times_s, huber: f64::INFINITY, prior }.start(&start.guess).unwrap_or(start.clone());
+    let mut fit =
+        FitProblem { pairs, times_s, huber: f64::INFINITY, prior }.start(&start.guess).unwrap_or(start.clone());
     let mut scale = f64::INFINITY;
     for _ in 0..4 {
         let next_scale = robust_scale(misfits(pairs, &fit));
@@ -128,25 +140,73 @@ fn finish(
     config: &TumblingConfig,
 ) -> Result<ShootingFit, TumblingError> {
     refuse_hopeless(pairs, &rough)?;
-    let mut fit = rough;
-    let mut used = agreeing_pairs(pairs, &fit, config);
-    let mut undetermined = weak_directions(&fit, config);
+    let mut used = agreeing_pairs(pairs, &rough, config);
+    let mut fit = simplest_motion(&used, times_s, rough);
+    let mut held = HeldDirections::of(&fit, config);
     for _ in 0..MOST_REJECTION_ROUNDS {
-        let prior = projector(&undetermined) / INERTIA_UNIT.powi(2);
-        let problem = FitProblem { pairs: &used, times_s, huber: f64::INFINITY, prior: &prior };
+        let problem = FitProblem { pairs: &used, times_s, huber: f64::INFINITY, prior: &held.prior() };
         fit = problem.solve(&fit.guess).unwrap_or(fit);
-        let (next_used, next_weak) = (agreeing_pairs(pairs, &fit, config), weak_directions(&fit, config));
-        let settled = next_used.len() == used.len() && next_weak.len() <= undetermined.len();
+        let (next_used, next_held) = (agreeing_pairs(pairs, &fit, config), HeldDirections::of(&fit, config));
+        let more_held = next_held.count() > held.count();
+        let settled = next_used.len() == used.len() && !more_held;
         used = next_used;
+        if more_held {
+            held = next_held;
+        }
         if settled {
             break;
         }
-        if next_weak.len() > undetermined.len() {
-            undetermined = next_weak;
-        }
     }
-    summarize(fit, &used, undetermined, config)
-        .ok_or(TumblingError::TooFewPairs { usable: used.len(), given: pairs.len(), needed: 5 })
+    summarize(fit, &used, held, config).ok_or(TumblingError::TooFewPairs {
+        usable: used.len(),
+        given: pairs.len(),
+        needed: LEAST_INTERVALS,
+    })
+}
+
+/// A pure spin if that explains the pairs as well: a fit that follows noise into a small nutation would find inertia in
+/// it that the pictures do not show.
+fn simplest_motion(pairs: &[RotationPair], times_s: &[f64], tumble: Fit) -> Fit {
+    let free = SMatrix::zeros();
+    let as_sphere = SMatrix::identity() * SPHERE_PRIOR;
+    let problem = FitProblem { pairs, times_s, huber: f64::INFINITY, prior: &as_sphere };
+    let sphere = Guess { rate_rad_s: tumble.guess.rate_rad_s, shape: InertiaShape::nearest(&Matrix3::identity()) };
+    let Some(spin) = problem.solve(&sphere) else { return tumble };
+    let Some(tumble_again) = (FitProblem { prior: &free, ..problem }).start(&tumble.guess) else { return tumble };
+    let variance_factor = (2.0 * tumble_again.cost / (3 * pairs.len()) as f64).max(1.0);
+    if 2.0 * (spin.cost - tumble_again.cost) < NUTATION_SIGNIFICANCE * variance_factor { spin } else { tumble }
+}
+
+/// Directions of the ratios that a fit is not left to itself in.
+struct HeldDirections {
+    /// Held as a guess would be, 1σ of 0.3, and reported without a number.
+    undetermined: Vec<UndeterminedDirection>,
+    /// Determined, but so little that the fit could run off along them: held with 1σ of 1.
+    loose: Vec<UndeterminedDirection>,
+}
+
+impl HeldDirections {
+    fn of(fit: &Fit, config: &TumblingConfig) -> Self {
+        let loose = weak_directions(fit, LOOSE_MARGIN * config.least_information);
+        let (undetermined, loose) = loose.into_iter().partition(|w| w.information < config.least_information);
+        HeldDirections { undetermined, loose }
+    }
+
+    /// Undetermined directions first.
+    fn count(&self) -> (usize, usize) {
+        (self.undetermined.len(), self.undetermined.len() + self.loose.len())
+    }
+
+    fn prior(&self) -> SMatrix<f64, 5, 5> {
+        projector(&self.undetermined) / INERTIA_UNIT.powi(2) + projector(&self.loose) * SHORT_ARC_PRIOR
+    }
+}
+
+impl ShootingFit {
+    /// Whether every direction of the ratios has at least this information (units |ω| and 0.3).
+    pub fn determines_inertia(&self, least_information: f64) -> bool {
+        weak_directions(&self.fit, least_information).is_empty()
+    }
 }
 
 fn refuse_hopeless(pairs: &[RotationPair], fit: &Fit) -> Result<(), TumblingError> {
@@ -164,29 +224,30 @@ fn agreeing_pairs(pairs: &[RotationPair], fit: &Fit, config: &TumblingConfig) ->
     pairs.iter().zip(sizes).filter(|(_, size)| *size <= gate).map(|(pair, _)| pair.clone()).collect()
 }
 
-fn weak_directions(fit: &Fit, config: &TumblingConfig) -> Vec<UndeterminedDirection> {
+fn weak_directions(fit: &Fit, least_information: f64) -> Vec<UndeterminedDirection> {
     let information = DMatrix::from_fn(8, 8, |i, j| fit.information[(i, j)]);
     let speed = fit.guess.rate_rad_s.norm();
-    undetermined_directions(&FisherInformation::from_matrix(information), speed, config.least_information)
+    undetermined_directions(&FisherInformation::from_matrix(information), speed, least_information)
 }
 
-fn summarize(
-    fit: Fit,
-    used: &[RotationPair],
-    undetermined: Vec<UndeterminedDirection>,
-    config: &TumblingConfig,
-) -> Option<ShootingFit> {
+fn summarize(fit: Fit, used: &[RotationPair], held: HeldDirections, config: &TumblingConfig) -> Option<ShootingFit> {
     let squares: f64 = misfits(used, &fit).iter().map(|s| s * s).sum();
     let freedom = (3 * used.len()).checked_sub(8).filter(|&f| f > 0)? as f64;
     let variance_factor = squares / freedom;
-    let mut held = fit.information;
-    let mut ratios = held.fixed_view_mut::<5, 5>(3, 3);
-    ratios += projector(&undetermined) / INERTIA_UNIT.powi(2);
-    let mut covariance = held.cholesky()?.inverse();
+    let guess = SMatrix::identity() / INERTIA_UNIT.powi(2);
+    let mut covariance = held_covariance(&fit, &held.prior()).or_else(|| held_covariance(&fit, &guess))?;
     // Six standard deviations of a χ² mean: a well-stated covariance passes.
     if config.scale_covariance && variance_factor > 1.0 + 6.0 * (2.0 / freedom).sqrt() {
         covariance *= variance_factor;
     }
     let residual_rms_sigma = variance_factor.sqrt();
-    Some(ShootingFit { covariance, undetermined, residual_rms_sigma, pairs_used: used.len(), fit })
+    Some(ShootingFit { covariance, undetermined: held.undetermined, residual_rms_sigma, pairs_used: used.len(), fit })
+}
+
+/// Covariance of (initial rate, ratios) from the pairs and what is held.
+fn held_covariance(fit: &Fit, prior: &SMatrix<f64, 5, 5>) -> Option<SMatrix<f64, 8, 8>> {
+    let mut information = fit.information;
+    let mut ratios = information.fixed_view_mut::<5, 5>(3, 3);
+    ratios += prior;
+    information.cholesky().map(|c| c.inverse())
 }
