@@ -292,12 +292,15 @@ fn realtime_filter_is_consistent() {
 
 #[test]
 fn pure_spin_invents_no_inertia() {
+    // Noise enough that an unguarded fit finds a nutation, and inertia in it, in every third run.
+    let mut noisy = design(300.0, 1.0);
+    noisy.sigma_rad = 0.3_f64.to_radians();
     let inertia = InertiaRatios([0.85, 1.37, 0.0, 0.0, 0.0]);
-    let outcomes: Vec<(usize, bool, f64)> = (0..30)
+    let outcomes: Vec<(usize, bool, f64)> = (0..20)
         .into_par_iter()
         .map(|seed| {
             let config = using(if seed % 5 == 4 { Estimator::Realtime } else { Estimator::Shooting });
-            let sequence = simulate(rate_deg_s(0.0, 4.0, 0.0), inertia, &design(90.0, 1.0), 1.0, seed);
+            let sequence = simulate(rate_deg_s(0.0, 2.3, 0.0), inertia, &noisy, 1.0, seed);
             let result = run(&sequence, &config);
             let elements = result.epochs[30].inertia.elements;
             // Lxy and Lyz are zero because the spin axis y is a principal one; the rest stays without a number.
@@ -308,7 +311,7 @@ fn pure_spin_invents_no_inertia() {
         })
         .collect();
     for (directions, right, rate_rms) in outcomes {
-        assert!(directions == 3 && right && rate_rms < 0.02_f64.to_radians(), "{directions} {right} {rate_rms}");
+        assert!(directions == 3 && right && rate_rms < 0.05_f64.to_radians(), "{directions} {right} {rate_rms}");
     }
 }
 
@@ -373,7 +376,7 @@ fn papers_filter_reaches_its_floor_and_no_more() {
     let mut exact = using(Estimator::Paper);
     exact.paper.integration = PaperIntegration::RungeKutta;
     let exact = run(&sequence, &exact);
-    assert!(last_fifth(&exact) < 0.1 * last_fifth(&euler), "{}", last_fifth(&exact));
+    assert!(last_fifth(&exact) < 0.5 * last_fifth(&euler), "{}", last_fifth(&exact));
     // A missing neighbour is bridged by a keyframe pair, or by prediction.
     sequence.pairs.retain(|p| p.t_ns_to != sequence.times_ns[300] || p.t_ns_from != sequence.times_ns[299]);
     assert_eq!(run(&sequence, &using(Estimator::Paper)).epochs.len(), 601);
@@ -395,6 +398,21 @@ fn papers_filter_fed_the_transposed_attitude_never_converges() {
     }
     assert!(errors[0][480..].iter().all(|e| *e < 0.5));
     assert!(errors[1][480..].iter().all(|e| *e > 1.0), "{:?}", &errors[1][480..]);
+}
+
+#[test]
+fn papers_filter_does_not_mind_the_sign_of_a_quaternion() {
+    let sequence = simulate(paper_rate(), PAPER, &design(100.0, 1.0), 0.0, 1);
+    let mut filters = [PaperFilter::new(&PaperConfig::default()), PaperFilter::new(&PaperConfig::default())];
+    for truth in &sequence.truth[1..] {
+        let q = truth.asteroid_from_inertial;
+        for (filter, fed) in filters.iter_mut().zip([q, UnitQuaternion::new_unchecked(-q.into_inner())]) {
+            filter.predict(1.0).unwrap();
+            filter.correct(&fed).unwrap();
+        }
+        let [a, b] = filters.each_ref().map(|f| f.epoch(0).state());
+        assert!(a.minus(&b).norm() < 1e-12);
+    }
 }
 
 #[test]

@@ -134,10 +134,10 @@ impl CloneFilter {
         // With A = Â exp(d), the prediction turns by -d_now + R̂ d_stored.
         let column = CORE + 3 * slot;
         let by_stored = predicted.to_rotation_matrix().into_inner();
-        let h_p = &by_stored * self.covariance.rows(column, 3) - self.covariance.rows(0, 3);
+        let h_p = by_stored * self.covariance.rows(column, 3) - self.covariance.rows(0, 3);
         let p_ht = h_p.transpose();
         let s: Matrix3<f64> =
-            (&by_stored * p_ht.rows(column, 3) - p_ht.rows(0, 3)).fixed_view::<3, 3>(0, 0) + pair.covariance_rad2;
+            (by_stored * p_ht.rows(column, 3) - p_ht.rows(0, 3)).fixed_view::<3, 3>(0, 0) + pair.covariance_rad2;
         let Some(s_inverse) = symmetric(&s).cholesky().map(|c| c.inverse()) else { return };
         let square = innovation.dot(&(s_inverse * innovation));
         if square > self.config.reject_sigma.powi(2) {

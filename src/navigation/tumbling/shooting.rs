@@ -1,35 +1,21 @@
 //! The shooting estimator: the free-body motion that fits all pairs best.
 
-use super::determinacy::{INERTIA_UNIT, UndeterminedDirection, projector, undetermined_directions};
+use super::determinacy::{INERTIA_UNIT, UndeterminedDirection};
 use super::fit::{Fit, FitProblem};
-use super::inertia::InertiaShape;
-use super::initial::{Guess, initial_guesses};
+use super::held::{HeldDirections, SHORT_ARC_PRIOR, simplest_motion, weak_directions};
+use super::initial::initial_guesses;
 use super::pair::RotationPair;
 use super::{TumblingConfig, TumblingError};
-use crate::navigation::observability::FisherInformation;
-use nalgebra::{DMatrix, Matrix3, SMatrix};
+use nalgebra::SMatrix;
 
 /// Picture intervals that the first arc holds at least.
 const LEAST_INTERVALS: usize = 20;
-
-/// Weak information that keeps the ratios within reason while the arc is short: 1σ of 1.
-const SHORT_ARC_PRIOR: f64 = 1.0;
 
 /// Median of a χ² variable with 3 degrees of freedom.
 const MEDIAN_CHI_SQUARED_3: f64 = 2.365_974;
 
 /// Misfit in standard deviations beyond which the pairs and the motion have nothing to do with each other.
 const HOPELESS_SIGMA: f64 = 30.0;
-
-/// Directions with less than this many times the least information are held loosely.
-const LOOSE_MARGIN: f64 = 10.0;
-
-/// Information that ties the ratios to a sphere's, so that the motion is a pure spin.
-const SPHERE_PRIOR: f64 = 1e12;
-
-/// Drop of χ² that a tumble must bring over a pure spin to be believed: its five more unknowns bring 5 by noise alone,
-/// and 30 once in 70 000 times.
-const NUTATION_SIGNIFICANCE: f64 = 30.0;
 
 const MOST_REJECTION_ROUNDS: usize = 6;
 
@@ -164,44 +150,6 @@ fn finish(
     })
 }
 
-/// A pure spin if that explains the pairs as well: a fit that follows noise into a small nutation would find inertia in
-/// it that the pictures do not show.
-fn simplest_motion(pairs: &[RotationPair], times_s: &[f64], tumble: Fit) -> Fit {
-    let free = SMatrix::zeros();
-    let as_sphere = SMatrix::identity() * SPHERE_PRIOR;
-    let problem = FitProblem { pairs, times_s, huber: f64::INFINITY, prior: &as_sphere };
-    let sphere = Guess { rate_rad_s: tumble.guess.rate_rad_s, shape: InertiaShape::nearest(&Matrix3::identity()) };
-    let Some(spin) = problem.solve(&sphere) else { return tumble };
-    let Some(tumble_again) = (FitProblem { prior: &free, ..problem }).start(&tumble.guess) else { return tumble };
-    let variance_factor = (2.0 * tumble_again.cost / (3 * pairs.len()) as f64).max(1.0);
-    if 2.0 * (spin.cost - tumble_again.cost) < NUTATION_SIGNIFICANCE * variance_factor { spin } else { tumble }
-}
-
-/// Directions of the ratios that a fit is not left to itself in.
-struct HeldDirections {
-    /// Held as a guess would be, 1σ of 0.3, and reported without a number.
-    undetermined: Vec<UndeterminedDirection>,
-    /// Determined, but so little that the fit could run off along them: held with 1σ of 1.
-    loose: Vec<UndeterminedDirection>,
-}
-
-impl HeldDirections {
-    fn of(fit: &Fit, config: &TumblingConfig) -> Self {
-        let loose = weak_directions(fit, LOOSE_MARGIN * config.least_information);
-        let (undetermined, loose) = loose.into_iter().partition(|w| w.information < config.least_information);
-        HeldDirections { undetermined, loose }
-    }
-
-    /// Undetermined directions first.
-    fn count(&self) -> (usize, usize) {
-        (self.undetermined.len(), self.undetermined.len() + self.loose.len())
-    }
-
-    fn prior(&self) -> SMatrix<f64, 5, 5> {
-        projector(&self.undetermined) / INERTIA_UNIT.powi(2) + projector(&self.loose) * SHORT_ARC_PRIOR
-    }
-}
-
 impl ShootingFit {
     /// Whether every direction of the ratios has at least this information (units |ω| and 0.3).
     pub fn determines_inertia(&self, least_information: f64) -> bool {
@@ -222,12 +170,6 @@ fn agreeing_pairs(pairs: &[RotationPair], fit: &Fit, config: &TumblingConfig) ->
     let sizes = misfits(pairs, fit);
     let gate = config.reject_sigma * robust_scale(sizes.clone());
     pairs.iter().zip(sizes).filter(|(_, size)| *size <= gate).map(|(pair, _)| pair.clone()).collect()
-}
-
-fn weak_directions(fit: &Fit, least_information: f64) -> Vec<UndeterminedDirection> {
-    let information = DMatrix::from_fn(8, 8, |i, j| fit.information[(i, j)]);
-    let speed = fit.guess.rate_rad_s.norm();
-    undetermined_directions(&FisherInformation::from_matrix(information), speed, least_information)
 }
 
 fn summarize(fit: Fit, used: &[RotationPair], held: HeldDirections, config: &TumblingConfig) -> Option<ShootingFit> {
