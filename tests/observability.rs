@@ -1,7 +1,8 @@
-//! Tests of the room `observability`.
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use opnav::navigation::observability::{ObservabilityRank, rank_by_order};
-use opnav::navigation::tumbling::{InertiaRatios, SpinState, lie_derivatives};
+//! Tests of the room `observability`, on the free body of the room `tumbling`.
+
+use nalgebra::{DMatrix, Quaternion, UnitQuaternion, Vector3};
+use opnav::navigation::observability::{FisherInformation, ObservabilityRank, rank_by_order};
+use opnav::navigation::tumbling::{ArcDesign, FreeBody, InertiaRatios, SpinState, arc_bound, lie_derivatives};
 
 const PAPER: InertiaRatios = InertiaRatios([0.85, 1.37, 0.13, 0.17, -0.11]);
 
@@ -45,8 +46,15 @@ fn ranks_by_order_follow_the_exact_ones() {
     }
 }
 
+fn assert_singular_values(found: &ObservabilityRank, first: usize, expected: &[f64]) {
+    for (value, found) in expected.iter().zip(&found.singular_values[first..]) {
+        assert!((found / value - 1.0).abs() < 2e-9, "{found} is not {value}");
+    }
+}
+
 #[test]
 fn singular_values_of_the_papers_case() {
+    let at_identity = ranks(UnitQuaternion::identity(), paper_rate(), &PAPER, 4);
     let expected = [
         1.153880927,
         1.150140876,
@@ -60,10 +68,9 @@ fn singular_values_of_the_papers_case() {
         0.01407170818,
         8.891680583e-4,
     ];
-    let found = ranks(UnitQuaternion::identity(), paper_rate(), &PAPER, 4);
-    for (i, &value) in expected.iter().enumerate() {
-        println!("{value} {}", found[4].singular_values[i]);
-    }
+    assert_singular_values(&at_identity[4], 0, &expected);
+    assert_singular_values(&at_identity[3], 8, &[0.02024346282, 0.01371649164, 4.835448174e-4]);
+    // Shuster's (1, 2, 2, 4)/5, scalar last.
     let q = UnitQuaternion::from_quaternion(Quaternion::new(4.0, -1.0, -2.0, -2.0));
     let expected = [
         1.177706363,
@@ -78,8 +85,63 @@ fn singular_values_of_the_papers_case() {
         0.0135287325,
         8.933485177e-4,
     ];
-    let found = ranks(q, paper_rate(), &PAPER, 4);
-    for (i, &value) in expected.iter().enumerate() {
-        println!("{value} {}", found[4].singular_values[i]);
+    assert_singular_values(&ranks(q, paper_rate(), &PAPER, 4)[4], 0, &expected);
+}
+
+#[test]
+fn what_hides_on_the_separatrix_is_along_the_normal_of_the_rates() {
+    let inertia = principal([1.0, 2.0, 2.25]);
+    let rate = Vector3::new(0.75, 2.0, 1.0);
+    let acceleration = FreeBody::new(&inertia).unwrap().acceleration_rad_s2(&rate);
+    let n = rate.cross(&acceleration).normalize();
+    // Moments may change by nnᵀ unseen; Lzz = 1 is then restored by the scale.
+    let hidden = n * n.transpose() - inertia.tensor() * (n.z * n.z);
+    let hidden = [hidden[(0, 0)], hidden[(1, 1)], hidden[(0, 1)], hidden[(0, 2)], hidden[(1, 2)]];
+    let norm = hidden.iter().map(|h| h * h).sum::<f64>().sqrt();
+    let found = &ranks(UnitQuaternion::identity(), rate.into(), &inertia, 4)[4].unobservable;
+    assert_eq!(found.ncols(), 1);
+    let along: f64 = (0..5).map(|i| found[(6 + i, 0)] * hidden[i] / norm).sum();
+    assert!((along.abs() - 1.0).abs() < 1e-9, "{found}");
+}
+
+#[test]
+fn bounds_of_the_papers_case() {
+    let table = [(60.0, 0.028, 0.048), (120.0, 0.0123, 0.0064), (300.0, 0.0082, 0.0037), (600.0, 0.0059, 0.0024)];
+    for (arc_s, rate_deg_s, ratio) in table {
+        let bound = |keyframe: Option<f64>, revisit: Option<f64>, sigma_deg: f64| {
+            let design = ArcDesign {
+                arc_s,
+                interval_s: 1.0,
+                sigma_rad: sigma_deg.to_radians(),
+                keyframe_turn_rad: keyframe.map(f64::to_radians),
+                loop_turn_rad: revisit.map(f64::to_radians),
+            };
+            let bound = arc_bound(&Vector3::from(paper_rate()), &PAPER, &design, 10.0).unwrap();
+            let rate = bound.rate_sigma_rad_s.unwrap().iter().map(|s| s * s).sum::<f64>().sqrt().to_degrees();
+            (rate, bound.inertia_sigma.unwrap().into_iter().fold(0.0, f64::max))
+        };
+        let neighbours = bound(None, None, 0.05);
+        assert!((neighbours.0 / rate_deg_s - 1.0).abs() < 0.02, "T = {arc_s}: {neighbours:?}");
+        assert!((neighbours.1 / ratio - 1.0).abs() < 0.02, "T = {arc_s}: {neighbours:?}");
+        let twice = bound(None, None, 0.10);
+        assert!((twice.0 / neighbours.0 - 2.0).abs() < 1e-6 && (twice.1 / neighbours.1 - 2.0).abs() < 1e-6);
+        let keyframes = bound(Some(30.0), None, 0.05);
+        let loops = bound(Some(30.0), Some(25.0), 0.05);
+        assert!(keyframes.0 < 0.6 * neighbours.0 && keyframes.1 < 0.6 * neighbours.1, "T = {arc_s}: {keyframes:?}");
+        assert!(loops.0 <= keyframes.0 && loops.1 <= keyframes.1, "T = {arc_s}: {loops:?}");
     }
+}
+
+#[test]
+fn information_is_marginal_over_what_else_is_unknown() {
+    let jacobian = DMatrix::from_row_slice(3, 2, &[1.0, 2.0, 0.5, -1.0, 3.0, 0.0]);
+    let mut information = FisherInformation::zero(2);
+    information.add_whitened(&jacobian);
+    let marginal = information.marginal_from(1).unwrap().matrix()[(0, 0)];
+    assert!((marginal * information.cramer_rao_bound().unwrap()[(1, 1)] - 1.0).abs() < 1e-12);
+    assert!(marginal < information.matrix()[(1, 1)]);
+    assert_eq!(FisherInformation::zero(2).cramer_rao_bound(), None);
+    let weak = information.in_units(&[1.0, 1e-3]).weak_directions(1.0);
+    assert_eq!(weak.len(), 1);
+    assert!(weak[0].direction[1].abs() > 0.999);
 }

@@ -76,14 +76,6 @@ pub enum TumblingError {
         /// Time in ns.
         t_ns: i64,
     },
-    /// The pictures end before the first arc does.
-    #[error(
-        "the first arc of the real-time estimator, {first_arc_s} s, needs more pictures: shorten it or use 'shooting'"
-    )]
-    ArcTooShort {
-        /// Length of the first arc in s.
-        first_arc_s: f64,
-    },
     /// A file could not be written or read.
     #[error(transparent)]
     Dataset(#[from] DatasetError),

@@ -61,6 +61,9 @@ const LOWER: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 
 /// Smallest share of the trace that an eigenvalue of Σ keeps when a tensor is made physical.
 const LEAST_SHARE: f64 = 0.01;
 
+/// Smallest diagonal entry of a C of unit norm: a needle 50 times longer than thick.
+const LEAST_DIAGONAL: f64 = 0.02;
+
 /// Inertia as Σ = ½ tr(J) I - J = C Cᵀ with C lower triangular: the second moments of mass, so every C is a possible body
 /// (positive definite, triangle inequality). The six entries of C have unit norm, which fixes the free scale of J.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,7 +82,8 @@ impl InertiaShape {
         InertiaShape(Vector6::from_fn(|i, _| c[LOWER[i]])).normalized()
     }
 
-    /// The shape moved by `d`, its diagonal positive (the signs of C's columns mean nothing) and its norm 1.
+    /// The shape moved by `d`, its diagonal positive (the signs of C's columns mean nothing; no body
+    /// is a line or a leaf) and its norm 1.
     pub fn moved(&self, d: &Vector6<f64>) -> Self {
         InertiaShape(self.0 + d).normalized()
     }
@@ -116,12 +120,13 @@ impl InertiaShape {
     }
 
     fn normalized(self) -> Self {
-        let mut c = self.factor();
+        let mut c = self.factor() / self.0.norm();
         for i in 0..3 {
             if c[(i, i)] < 0.0 {
                 let flipped = -c.column(i);
                 c.set_column(i, &flipped);
             }
+            c[(i, i)] = c[(i, i)].max(LEAST_DIAGONAL);
         }
         InertiaShape(Vector6::from_fn(|i, _| c[LOWER[i]]).normalize())
     }

@@ -18,6 +18,7 @@ mod error;
 mod estimate;
 mod files;
 mod fit;
+mod held;
 mod inertia;
 mod initial;
 mod lie;

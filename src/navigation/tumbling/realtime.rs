@@ -14,22 +14,24 @@ use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, UnitQuaternion, Vector3, Vect
 /// Size of (attitude error in inertial axes, rate error, ratio errors).
 const CORE: usize = 11;
 
-/// Shooting until [`TumblingConfig::realtime_start_s`], then the filter; epochs before that time are the first fit's.
+/// Fewest pictures of the arc that starts the filter.
+const LEAST_FIRST_PICTURES: usize = 60;
+
+/// How many times the information that counts as determined the filter asks for, so that its linearisation holds.
+const INFORMATION_MARGIN: f64 = 10.0;
+
+/// Shooting until [`TumblingConfig::realtime_start_s`] (longer, while the inertia is not well determined), then the
+/// filter; epochs before are the first fit's.
 ///
 /// # Errors
-/// A sequence shorter than the first arc, and what shooting says of it.
+/// What shooting says of the first arc; a filter that lost the motion.
 pub(super) fn filter_after_first_arc(
     pairs: &[RotationPair],
     frame_times_ns: &[i64],
     config: &TumblingConfig,
 ) -> Result<TumblingResult, TumblingError> {
     let times_s = seconds(frame_times_ns);
-    let first = times_s.partition_point(|&t| t <= config.realtime_start_s);
-    if first < 4 || first == times_s.len() {
-        return Err(TumblingError::ArcTooShort { first_arc_s: config.realtime_start_s });
-    }
-    let early: Vec<RotationPair> = pairs.iter().filter(|p| p.to < first).cloned().collect();
-    let shot = shoot(&early, &times_s[..first], config)?;
+    let (shot, first) = shoot_until_determined(pairs, &times_s, config)?;
     let mut epochs = shooting_epochs(&shot, &frame_times_ns[..first]);
     let mut filter = CloneFilter::start(&shot, pairs, config);
     for k in first..times_s.len() {
@@ -45,6 +47,24 @@ pub(super) fn filter_after_first_arc(
     let count = PairCount { used, given: pairs.len(), residual_rms_sigma: (squares / (3.0 * used as f64)).sqrt() };
     let (covariance, undetermined) = (filter.ratio_covariance(), filter.undetermined());
     Ok(TumblingResult::new(epochs, &filter.inertia, &covariance, undetermined, count))
+}
+
+/// The fit of the first arc, and its number of pictures; all of them if the inertia is never well determined.
+fn shoot_until_determined(
+    pairs: &[RotationPair],
+    times_s: &[f64],
+    config: &TumblingConfig,
+) -> Result<(ShootingFit, usize), TumblingError> {
+    let within = times_s.partition_point(|&t| t <= config.realtime_start_s);
+    let mut first = within.max(LEAST_FIRST_PICTURES).min(times_s.len());
+    loop {
+        let early: Vec<RotationPair> = pairs.iter().filter(|p| p.to < first).cloned().collect();
+        let shot = shoot(&early, &times_s[..first], config)?;
+        if first == times_s.len() || shot.determines_inertia(INFORMATION_MARGIN * config.least_information) {
+            return Ok((shot, first));
+        }
+        first = ((first as f64 * config.growth).ceil() as usize).min(times_s.len());
+    }
 }
 
 /// An attitude kept for later pairs.
@@ -114,10 +134,10 @@ impl CloneFilter {
         // With A = Â exp(d), the prediction turns by -d_now + R̂ d_stored.
         let column = CORE + 3 * slot;
         let by_stored = predicted.to_rotation_matrix().into_inner();
-        let h_p = &by_stored * self.covariance.rows(column, 3) - self.covariance.rows(0, 3);
+        let h_p = by_stored * self.covariance.rows(column, 3) - self.covariance.rows(0, 3);
         let p_ht = h_p.transpose();
         let s: Matrix3<f64> =
-            (&by_stored * p_ht.rows(column, 3) - p_ht.rows(0, 3)).fixed_view::<3, 3>(0, 0) + pair.covariance_rad2;
+            (by_stored * p_ht.rows(column, 3) - p_ht.rows(0, 3)).fixed_view::<3, 3>(0, 0) + pair.covariance_rad2;
         let Some(s_inverse) = symmetric(&s).cholesky().map(|c| c.inverse()) else { return };
         let square = innovation.dot(&(s_inverse * innovation));
         if square > self.config.reject_sigma.powi(2) {

@@ -1,18 +1,15 @@
 //! The shooting estimator: the free-body motion that fits all pairs best.
 
-use super::determinacy::{INERTIA_UNIT, UndeterminedDirection, projector, undetermined_directions};
+use super::determinacy::{INERTIA_UNIT, UndeterminedDirection};
 use super::fit::{Fit, FitProblem};
+use super::held::{HeldDirections, SHORT_ARC_PRIOR, simplest_motion, weak_directions};
 use super::initial::initial_guesses;
 use super::pair::RotationPair;
 use super::{TumblingConfig, TumblingError};
-use crate::navigation::observability::FisherInformation;
-use nalgebra::{DMatrix, SMatrix};
+use nalgebra::SMatrix;
 
 /// Picture intervals that the first arc holds at least.
 const LEAST_INTERVALS: usize = 20;
-
-/// Weak information that keeps the ratios within reason while the arc is short: 1σ of 1.
-const SHORT_ARC_PRIOR: f64 = 1.0;
 
 /// Median of a χ² variable with 3 degrees of freedom.
 const MEDIAN_CHI_SQUARED_3: f64 = 2.365_974;
@@ -129,28 +126,35 @@ fn finish(
     config: &TumblingConfig,
 ) -> Result<ShootingFit, TumblingError> {
     refuse_hopeless(pairs, &rough)?;
-    let mut fit = rough;
-    let mut used = agreeing_pairs(pairs, &fit, config);
-    let mut undetermined = weak_directions(&fit, config);
+    let mut used = agreeing_pairs(pairs, &rough, config);
+    let mut fit = simplest_motion(&used, times_s, rough);
+    let mut held = HeldDirections::of(&fit, config);
     for _ in 0..MOST_REJECTION_ROUNDS {
-        let prior = projector(&undetermined) / INERTIA_UNIT.powi(2);
-        let problem = FitProblem { pairs: &used, times_s, huber: f64::INFINITY, prior: &prior };
+        let problem = FitProblem { pairs: &used, times_s, huber: f64::INFINITY, prior: &held.prior() };
         fit = problem.solve(&fit.guess).unwrap_or(fit);
-        let (next_used, next_weak) = (agreeing_pairs(pairs, &fit, config), weak_directions(&fit, config));
-        let settled = next_used.len() == used.len() && next_weak.len() <= undetermined.len();
+        let (next_used, next_held) = (agreeing_pairs(pairs, &fit, config), HeldDirections::of(&fit, config));
+        let more_held = next_held.count() > held.count();
+        let settled = next_used.len() == used.len() && !more_held;
         used = next_used;
+        if more_held {
+            held = next_held;
+        }
         if settled {
             break;
         }
-        if next_weak.len() > undetermined.len() {
-            undetermined = next_weak;
-        }
     }
-    summarize(fit, &used, undetermined, config).ok_or(TumblingError::TooFewPairs {
+    summarize(fit, &used, held, config).ok_or(TumblingError::TooFewPairs {
         usable: used.len(),
         given: pairs.len(),
-        needed: 5,
+        needed: LEAST_INTERVALS,
     })
+}
+
+impl ShootingFit {
+    /// Whether every direction of the ratios has at least this information (units |ω| and 0.3).
+    pub fn determines_inertia(&self, least_information: f64) -> bool {
+        weak_directions(&self.fit, least_information).is_empty()
+    }
 }
 
 fn refuse_hopeless(pairs: &[RotationPair], fit: &Fit) -> Result<(), TumblingError> {
@@ -168,29 +172,24 @@ fn agreeing_pairs(pairs: &[RotationPair], fit: &Fit, config: &TumblingConfig) ->
     pairs.iter().zip(sizes).filter(|(_, size)| *size <= gate).map(|(pair, _)| pair.clone()).collect()
 }
 
-fn weak_directions(fit: &Fit, config: &TumblingConfig) -> Vec<UndeterminedDirection> {
-    let information = DMatrix::from_fn(8, 8, |i, j| fit.information[(i, j)]);
-    let speed = fit.guess.rate_rad_s.norm();
-    undetermined_directions(&FisherInformation::from_matrix(information), speed, config.least_information)
-}
-
-fn summarize(
-    fit: Fit,
-    used: &[RotationPair],
-    undetermined: Vec<UndeterminedDirection>,
-    config: &TumblingConfig,
-) -> Option<ShootingFit> {
+fn summarize(fit: Fit, used: &[RotationPair], held: HeldDirections, config: &TumblingConfig) -> Option<ShootingFit> {
     let squares: f64 = misfits(used, &fit).iter().map(|s| s * s).sum();
     let freedom = (3 * used.len()).checked_sub(8).filter(|&f| f > 0)? as f64;
     let variance_factor = squares / freedom;
-    let mut held = fit.information;
-    let mut ratios = held.fixed_view_mut::<5, 5>(3, 3);
-    ratios += projector(&undetermined) / INERTIA_UNIT.powi(2);
-    let mut covariance = held.cholesky()?.inverse();
+    let guess = SMatrix::identity() / INERTIA_UNIT.powi(2);
+    let mut covariance = held_covariance(&fit, &held.prior()).or_else(|| held_covariance(&fit, &guess))?;
     // Six standard deviations of a χ² mean: a well-stated covariance passes.
     if config.scale_covariance && variance_factor > 1.0 + 6.0 * (2.0 / freedom).sqrt() {
         covariance *= variance_factor;
     }
     let residual_rms_sigma = variance_factor.sqrt();
-    Some(ShootingFit { covariance, undetermined, residual_rms_sigma, pairs_used: used.len(), fit })
+    Some(ShootingFit { covariance, undetermined: held.undetermined, residual_rms_sigma, pairs_used: used.len(), fit })
+}
+
+/// Covariance of (initial rate, ratios) from the pairs and what is held.
+fn held_covariance(fit: &Fit, prior: &SMatrix<f64, 5, 5>) -> Option<SMatrix<f64, 8, 8>> {
+    let mut information = fit.information;
+    let mut ratios = information.fixed_view_mut::<5, 5>(3, 3);
+    ratios += prior;
+    information.cholesky().map(|c| c.inverse())
 }
