@@ -28,7 +28,7 @@ pub struct CraterClass {
 }
 
 /// Craters grow shallower for their diameter beyond this diameter in m.
-const SHALLOWING_M: f64 = 400.0;
+const SHALLOWING_M: f64 = 150.0;
 
 impl CraterClass {
     /// Adds what this class does to a place (m).

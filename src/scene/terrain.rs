@@ -131,7 +131,7 @@ fn crater_classes(config: &TerrainConfig, seed: u64) -> Vec<CraterClass> {
             scatter,
             depth_ratio: config.crater_depth_ratio,
             site_slope: config.site_slope,
-            albedo_contrast: 5.0 * config.albedo_contrast,
+            albedo_contrast: 3.0 * config.albedo_contrast,
         })
         .collect()
 }
@@ -143,7 +143,7 @@ fn rock_classes(config: &TerrainConfig, seed: u64) -> Vec<RockClass> {
         .map(|scatter| RockClass {
             scatter,
             site_slope: config.site_slope,
-            albedo_contrast: 10.0 * config.albedo_contrast,
+            albedo_contrast: 3.0 * config.albedo_contrast,
         })
         .collect()
 }
