@@ -107,6 +107,22 @@ fn gradients_are_the_derivatives_of_heights() {
 }
 
 #[test]
+fn a_patch_is_exactly_its_piece_of_terrain() {
+    let terrain = Terrain::new(&TerrainConfig::default(), 6);
+    let mut random = random_stream(6, "patch", 0);
+    for _ in 0..60 {
+        let edge_m = 10.0_f64.powf(random.random_range(-1.0..4.0));
+        let low = Vector2::from_fn(|_, _| random.random_range(-3e3..3e3));
+        let detail = GroundDetail { feature_m: 0.02 * edge_m, height_m: 0.01 * edge_m, ..GroundDetail::default() };
+        let patch = terrain.patch(&low, &low.add_scalar(edge_m), &detail);
+        for _ in 0..50 {
+            let at = low + Vector2::from_fn(|_, _| random.random_range(0.0..=1.0)) * edge_m;
+            assert_eq!(patch.sample(at.x, at.y), terrain.sample(at.x, at.y, &detail), "edge {edge_m} m");
+        }
+    }
+}
+
+#[test]
 fn a_ray_meets_the_ground_where_it_first_crosses_it() {
     let terrain = Terrain::new(&TerrainConfig::default(), 2);
     let mut random = random_stream(2, "ray", 0);
