@@ -6,7 +6,7 @@ use opnav::geometry::{Camera, Distortion};
 use opnav::render::{
     Gpu, Photometry, RenderConfig, RenderError, RenderedFrame, Renderer, World, expose, list_adapters,
 };
-use opnav::scene::{BodySurface, Exposure, Mesh, SensorConfig, SmallBody, Terrain, TerrainConfig, View};
+use opnav::scene::{BodySurface, Exposure, GroundDetail, Mesh, SensorConfig, SmallBody, Terrain, TerrainConfig, View};
 use opnav::stats::random_stream;
 use rand::RngExt;
 
@@ -353,6 +353,34 @@ fn depth_of_rough_ground_is_that_of_the_analytic_terrain() {
         let (median, most) = (off[off.len() / 2], off[off.len() * 98 / 100]);
         println!("{height_m} m: median {median:.3} footprints, 98 % below {most:.3}");
         assert!(median < 0.1 && most < 1.0, "from {height_m} m: median {median:.3}, 98 % below {most:.3} footprints");
+    }
+}
+
+#[test]
+fn albedo_in_the_picture_is_that_of_the_terrain() {
+    let terrain = Terrain::new(&flat(), 4);
+    let stranger = Terrain::new(&flat(), 5);
+    let camera = Camera::from_fov(256, 256, 1.2);
+    for (place, height_m) in [([3300.0, 5870.0], 6570.0), ([20_000.0, -15_000.0], 40.0), ([0.3, 0.2], 3.0)] {
+        let view = look_down(&terrain, place, height_m);
+        let config = RenderConfig { supersampling: 1, ..lambert() };
+        let frame = render(World::Terrain(&terrain), &camera, &config, &view);
+        let eye = view.reference_from_camera.translation.vector;
+        let (mut off, mut off_stranger): (f64, f64) = (0.0, 0.0);
+        for (u, v) in (0..256).flat_map(|v| (0..256).map(move |u| (u, v))).step_by(29) {
+            let direction = ray(&camera, &view, u, v);
+            let at = eye + direction * (-eye.z / direction.z);
+            let cosine = -direction.normalize().z;
+            let footprint_m = eye.z / camera.mean_focal_px() / cosine.sqrt();
+            let detail = GroundDetail { footprint_m, ..GroundDetail::default() };
+            let albedo = |t: &Terrain| t.albedo_from_change(t.sample(at.x, at.y, &detail).albedo_change);
+            let found = f64::from(frame.radiance[frame.index(u, v)]) / view.sun_in_reference.z;
+            off = off.max((found - albedo(&terrain)).abs());
+            off_stranger = off_stranger.max((found - albedo(&stranger)).abs());
+        }
+        println!("{height_m} m: albedo off by {off:.1e}, another terrain's by {off_stranger:.1e}");
+        assert!(off < 1e-3, "albedo off by {off} from {height_m} m");
+        assert!(off_stranger > 0.02, "the test can tell one terrain from another");
     }
 }
 
