@@ -185,7 +185,7 @@ fn features_show_at_every_place_that_they_reach() {
     assert!(all.len() > 500);
     for (center, diameter_m) in &all {
         for k in 0..8 {
-            let angle = f64::from(k) * 0.7854 + 0.1;
+            let angle = f64::from(k) * std::f64::consts::FRAC_PI_4 + 0.1;
             let at =
                 center + Vector2::new(angle.cos(), angle.sin()) * (0.999 * 0.5 * diameter_m * Scatter::REACH_RADII);
             let seen = classes.iter().any(|c| c.near(at.x, at.y).any(|f| f.center_m == *center));

@@ -69,6 +69,5 @@ pub(super) fn fetch_buffer(gpu: &Gpu, mut encoder: wgpu::CommandEncoder, source:
     gpu.queue.submit([encoder.finish()]);
     target.map_async(wgpu::MapMode::Read, .., |_| ());
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the adapter works");
-    let bytes = target.get_mapped_range(..).expect("a mapped buffer").to_vec();
-    bytes
+    target.get_mapped_range(..).expect("a mapped buffer").to_vec()
 }
