@@ -130,8 +130,10 @@ fn a_ray_meets_the_ground_where_it_first_crosses_it() {
         let height_m = 10.0_f64.powf(random.random_range(0.5..3.8));
         let (x, y) = (random.random_range(-1e3..1e3), random.random_range(-1e3..1e3));
         let origin = Vector3::new(x, y, terrain.height_m(x, y) + height_m);
-        let direction =
-            Unit::new_normalize(Vector3::new(random.random_range(-1.5..1.5), random.random_range(-1.5..1.5), -1.0));
+        // From steep to grazing.
+        let level = 10.0_f64.powf(random.random_range(-1.0..1.2));
+        let turn = random.random_range(0.0..std::f64::consts::TAU);
+        let direction = Unit::new_normalize(Vector3::new(level * turn.cos(), level * turn.sin(), -1.0));
         let range_m = terrain.ray_cast(&origin, &direction).expect("a descending ray meets the ground");
         let hit = origin + direction.as_ref() * range_m;
         assert!((hit.z - terrain.height_m(hit.x, hit.y)).abs() < 1e-6 * (1.0 + range_m));
