@@ -490,7 +490,9 @@ fn texture_persists_over_a_tenth_of_scale() {
         Renderer::new(&gpu(), World::Terrain(&terrain), &camera, &RenderConfig::default()).expect("ready");
     let place = [25.0, 31.0];
     for height_m in [7000.0, 2900.0, 1000.0, 333.0, 80.0, 23.0, 6.0] {
-        let (near, far) = (look_down(&terrain, place, height_m), look_down(&terrain, place, 1.1 * height_m));
+        // Sideways too, so that texture which hangs on the camera is found out.
+        let aside = [place[0] + 0.037 * height_m, place[1] - 0.021 * height_m];
+        let (near, far) = (look_down(&terrain, place, height_m), look_down(&terrain, aside, 1.1 * height_m));
         let (near_frame, far_frame) = (renderer.render(&near).expect("near"), renderer.render(&far).expect("far"));
         // Where each pixel of the near picture lies in the far one, by the near one's depth.
         let far_from_near = far.reference_from_camera.inverse() * near.reference_from_camera;
