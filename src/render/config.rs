@@ -34,7 +34,7 @@ pub struct RenderConfig {
     pub supersampling: u32,
     /// Edge of the shadow map in texels (default 2048).
     pub shadow_map_px: u32,
-    /// Largest spacing of terrain vertices in px, seen face on (default 2).
+    /// Largest spacing of terrain vertices in px, seen face on (default 1.5).
     pub vertex_spacing_px: f64,
     /// How the surface scatters sunlight (default lunar-Lambert with weight 0.6).
     pub photometry: Photometry,
@@ -47,7 +47,7 @@ impl Default for RenderConfig {
         RenderConfig {
             supersampling: 2,
             shadow_map_px: 2048,
-            vertex_spacing_px: 2.0,
+            vertex_spacing_px: 1.5,
             photometry: Photometry::LunarLambert { weight: 0.6 },
             sky_light: 0.15,
         }
