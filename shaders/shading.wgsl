@@ -111,10 +111,12 @@ fn body_surface(sample: vec4<f32>, relative: vec3<f32>) -> Surface {
     return Surface(relative, smooth_normal, normalize(smooth_normal - tangent), clamped);
 }
 
-// Share of the Sun seen, 0 to 1, of a place moved off the surface by a texel or two against self-shadowing.
+// Share of the Sun seen, 0 to 1, of a place lifted off the surface against shadowing by itself: the filter reaches 1.5
+// texels on both axes, over which a plane falls away by up to 2.2 texels times the sine of the incidence.
 fn sunlight(surface: Surface) -> f32 {
-    let grazing = 1.0 - clamp(dot(surface.smooth_normal, shading.sun.xyz), 0.0, 1.0);
-    let lifted = surface.relative + surface.smooth_normal * shading.surface.w * (0.7 + 1.5 * grazing);
+    let cosine = clamp(dot(surface.smooth_normal, shading.sun.xyz), 0.0, 1.0);
+    let lift_m = shading.surface.w * (0.5 + 2.2 * sqrt(1.0 - cosine * cosine));
+    let lifted = surface.relative + surface.smooth_normal * lift_m;
     let at = (shading.shadow_from_relative * vec4(lifted, 1.0)).xyz;
     if any(at.xy < vec2(0.0)) || any(at.xy > vec2(1.0)) {
         return 1.0;
@@ -169,6 +171,12 @@ fn surface_of(sample: vec4<f32>, pixel: vec2<f32>, is_terrain: bool) -> Surface 
     return body_surface(sample, relative);
 }
 
+// The surface as its mesh has it.
+fn smooth_surface_of(sample: vec4<f32>, pixel: vec2<f32>, is_terrain: bool) -> Surface {
+    let normal = normalize(select(sample.xyz, vec3(-sample.xy, 1.0), is_terrain));
+    return Surface(relative_place(pixel, sample.w), normal, normal, shading.surface.x);
+}
+
 fn shade(target_position: vec4<f32>, is_terrain: bool) -> Outputs {
     let at = vec2<u32>(target_position.xy);
     let supersampling = shading.counts.x;
@@ -184,7 +192,7 @@ fn shade(target_position: vec4<f32>, is_terrain: bool) -> Outputs {
     let center = textureLoad(truth, at, 0);
     out.depth = center.w;
     if center.w > 0.0 {
-        out.mask = mask_of(surface_of(center, pixel_from_sample(at, 1u), is_terrain));
+        out.mask = mask_of(smooth_surface_of(center, pixel_from_sample(at, 1u), is_terrain));
     }
     return out;
 }

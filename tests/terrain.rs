@@ -107,6 +107,22 @@ fn gradients_are_the_derivatives_of_heights() {
 }
 
 #[test]
+fn a_patch_is_exactly_its_piece_of_terrain() {
+    let terrain = Terrain::new(&TerrainConfig::default(), 6);
+    let mut random = random_stream(6, "patch", 0);
+    for _ in 0..60 {
+        let edge_m = 10.0_f64.powf(random.random_range(-1.0..4.0));
+        let low = Vector2::from_fn(|_, _| random.random_range(-3e3..3e3));
+        let detail = GroundDetail { feature_m: 0.02 * edge_m, height_m: 0.01 * edge_m, ..GroundDetail::default() };
+        let patch = terrain.patch(&low, &low.add_scalar(edge_m), &detail);
+        for _ in 0..50 {
+            let at = low + Vector2::from_fn(|_, _| random.random_range(0.0..=1.0)) * edge_m;
+            assert_eq!(patch.sample(at.x, at.y), terrain.sample(at.x, at.y, &detail), "edge {edge_m} m");
+        }
+    }
+}
+
+#[test]
 fn a_ray_meets_the_ground_where_it_first_crosses_it() {
     let terrain = Terrain::new(&TerrainConfig::default(), 2);
     let mut random = random_stream(2, "ray", 0);
@@ -114,8 +130,10 @@ fn a_ray_meets_the_ground_where_it_first_crosses_it() {
         let height_m = 10.0_f64.powf(random.random_range(0.5..3.8));
         let (x, y) = (random.random_range(-1e3..1e3), random.random_range(-1e3..1e3));
         let origin = Vector3::new(x, y, terrain.height_m(x, y) + height_m);
-        let direction =
-            Unit::new_normalize(Vector3::new(random.random_range(-1.5..1.5), random.random_range(-1.5..1.5), -1.0));
+        // From steep to grazing.
+        let level = 10.0_f64.powf(random.random_range(-1.0..1.2));
+        let turn = random.random_range(0.0..std::f64::consts::TAU);
+        let direction = Unit::new_normalize(Vector3::new(level * turn.cos(), level * turn.sin(), -1.0));
         let range_m = terrain.ray_cast(&origin, &direction).expect("a descending ray meets the ground");
         let hit = origin + direction.as_ref() * range_m;
         assert!((hit.z - terrain.height_m(hit.x, hit.y)).abs() < 1e-6 * (1.0 + range_m));
@@ -169,7 +187,7 @@ fn features_show_at_every_place_that_they_reach() {
     assert!(all.len() > 500);
     for (center, diameter_m) in &all {
         for k in 0..8 {
-            let angle = f64::from(k) * 0.7854 + 0.1;
+            let angle = f64::from(k) * std::f64::consts::FRAC_PI_4 + 0.1;
             let at =
                 center + Vector2::new(angle.cos(), angle.sin()) * (0.999 * 0.5 * diameter_m * Scatter::REACH_RADII);
             let seen = classes.iter().any(|c| c.near(at.x, at.y).any(|f| f.center_m == *center));

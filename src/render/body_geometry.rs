@@ -111,14 +111,17 @@ fn bounding_sphere(mesh: &Mesh) -> (Vector3<f64>, f64) {
     (center, radius.max(1e-6))
 }
 
-/// Vertices with area-weighted normals.
+/// Vertices with angle-weighted normals, which do not depend on how the surface is cut into triangles.
+///
+/// Source: Thürmer and Wüthrich, "Computing vertex normals from polygonal facets", Journal of Graphics Tools 3(1), 1998.
 fn gpu_vertices(mesh: &Mesh) -> Vec<BodyVertex> {
     let mut normals = vec![Vector3::zeros(); mesh.vertices_m.len()];
     for face in &mesh.faces {
         let [a, b, c] = face.map(|i| mesh.vertices_m[i as usize]);
-        let area = (b - a).cross(&(c - a));
-        for i in face {
-            normals[*i as usize] += area;
+        let Some(normal) = (b - a).cross(&(c - a)).try_normalize(0.0) else { continue };
+        let angles = [(b - a).angle(&(c - a)), (c - b).angle(&(a - b)), (a - c).angle(&(b - c))];
+        for (i, angle) in face.iter().zip(angles) {
+            normals[*i as usize] += normal * angle;
         }
     }
     let vertex = |(p, n): (&Vector3<f64>, &Vector3<f64>)| {

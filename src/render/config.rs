@@ -34,11 +34,11 @@ pub struct RenderConfig {
     pub supersampling: u32,
     /// Edge of the shadow map in texels (default 2048).
     pub shadow_map_px: u32,
-    /// Largest spacing of terrain vertices in px, seen face on (default 2).
+    /// Largest spacing of terrain vertices in px, seen face on (default 1.5).
     pub vertex_spacing_px: f64,
     /// How the surface scatters sunlight (default lunar-Lambert with weight 0.6).
     pub photometry: Photometry,
-    /// Radiance of the sky over that of the Sun, for terrain (default 0.05); small bodies have none.
+    /// Radiance of the sky over that of the Sun, for terrain (default 0.15, a hazy Martian sky); small bodies have none.
     pub sky_light: f64,
 }
 
@@ -47,9 +47,9 @@ impl Default for RenderConfig {
         RenderConfig {
             supersampling: 2,
             shadow_map_px: 2048,
-            vertex_spacing_px: 2.0,
+            vertex_spacing_px: 1.5,
             photometry: Photometry::LunarLambert { weight: 0.6 },
-            sky_light: 0.05,
+            sky_light: 0.15,
         }
     }
 }

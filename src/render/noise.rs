@@ -37,3 +37,124 @@ fn octave_relative_to(octave: &NoiseOctave, camera_in_reference_m: &Vector3<f64>
         fraction: [fraction.x, fraction.y, fraction.z, 0.0],
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::Gpu;
+    use crate::render::geometry_pass::buffer;
+    use crate::render::read_back::fetch_buffer;
+    use crate::scene::OctaveStrength;
+    use crate::stats::random_stream;
+    use rand::RngExt;
+    use wgpu::util::DeviceExt;
+
+    const TWIN: &str = concat!(
+        include_str!("../../shaders/noise.wgsl"),
+        "@group(0) @binding(0) var<storage, read> table: array<Octave, OCTAVES>;
+         @group(0) @binding(1) var<storage, read> places: array<vec4<f32>>; // relative to the camera; w = octave
+         @group(0) @binding(2) var<storage, read_write> results: array<vec4<f32>>; // two a place: solid, planar
+         @compute @workgroup_size(64)
+         fn sample_all(@builtin(global_invocation_id) id: vec3<u32>) {
+             let place = places[id.x];
+             let octave = table[u32(place.w)];
+             let planar = octave_planar(octave, place.xyz);
+             let solid = octave_solid(octave, place.xyz);
+             let to_lattice = octave.row_x.w; // gradients per wavelength
+             results[2u * id.x] = vec4(solid.relief, solid.relief_gradient.xy * to_lattice, solid.albedo);
+             results[2u * id.x + 1u] = vec4(planar.relief, planar.relief_gradient.xy * to_lattice, planar.albedo);
+         }"
+    );
+
+    fn on_adapter(gpu: &Gpu, table: &[Octave; OCTAVES], places: &[[f32; 4]]) -> Vec<[f32; 4]> {
+        let device = &gpu.device;
+        let upload = |contents: &[u8]| {
+            let usage = wgpu::BufferUsages::STORAGE;
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents, usage })
+        };
+        let results = buffer(gpu, 32 * places.len() as u64, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
+        let buffers = [upload(bytemuck::cast_slice(table)), upload(bytemuck::cast_slice(places)), results];
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: None,
+            source: wgpu::ShaderSource::Wgsl(TWIN.into()),
+        });
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: None,
+            layout: None,
+            module: &module,
+            entry_point: None,
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        let entries: Vec<_> = (0..)
+            .zip(&buffers)
+            .map(|(binding, b)| wgpu::BindGroupEntry { binding, resource: b.as_entire_binding() })
+            .collect();
+        let layout = pipeline.get_bind_group_layout(0);
+        let group =
+            device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &layout, entries: &entries });
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.dispatch_workgroups(places.len() as u32 / 64, 1, 1);
+        }
+        bytemuck::pod_collect_to_vec(&fetch_buffer(gpu, encoder, &buffers[2]))
+    }
+
+    /// Largest difference between the adapter's noise and the CPU's around a camera, of the solid noise alone (1 function)
+    /// or of both (2).
+    fn largest_difference(
+        octaves: &[NoiseOctave],
+        table: &[Octave; OCTAVES],
+        camera: &Vector3<f64>,
+        functions: usize,
+    ) -> f64 {
+        let mut random = random_stream(1, "twin", 0);
+        let place = |_| {
+            let which = random.random_range(0..octaves.len());
+            // As far as an octave is ever seen: some thousand wavelengths.
+            let reach_m = 1000.0 * octaves[which].wavelength_m;
+            let mut at = || random.random_range(-reach_m..reach_m) as f32;
+            [at(), at(), at(), which as f32]
+        };
+        let places: Vec<[f32; 4]> = (0..6400).map(place).collect();
+        let results = on_adapter(&Gpu::new(None).expect("an adapter"), table, &places);
+        let difference = |(place, found): (&[f32; 4], &[[f32; 4]])| {
+            let octave = &octaves[place[3] as usize];
+            let at = camera + Vector3::new(place[0], place[1], place[2]).cast::<f64>();
+            let samples = [octave.sample_solid(&at), octave.sample_planar(at.x, at.y)];
+            samples.iter().zip(found).take(functions).fold(0.0, |most: f64, (sample, found)| {
+                let g = sample.relief_gradient * octave.wavelength_m;
+                let expected = [sample.relief, g.x, g.y, sample.albedo];
+                expected.iter().zip(found).fold(most, |m, (e, f)| m.max((e - f64::from(*f)).abs()))
+            })
+        };
+        places.iter().zip(results.chunks(2)).map(difference).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn the_adapter_computes_the_same_noise_as_the_cpu() {
+        let strength = OctaveStrength {
+            largest_m: 6000.0,
+            smallest_m: 0.02,
+            slope_at_1_m: 0.1,
+            hurst: 0.8,
+            albedo_contrast: 0.05,
+        };
+        let camera = Vector3::new(-21_234.567, 17_654.321, 4.2);
+        let planar = NoiseOctave::planar(&strength, 3, "twin");
+        let solid = NoiseOctave::solid(&strength, 3, "twin");
+        for (octaves, functions) in [(planar, 2), (solid, 1)] {
+            let (table, count) = octave_table(&octaves, &camera, 0.0);
+            assert_eq!(count as usize, octaves.len());
+            let off = largest_difference(&octaves, &table, &camera, functions);
+            assert!(off < 1e-3, "noise differs by {off}");
+            // One cell off is another noise.
+            let mut wrong = table;
+            wrong.iter_mut().for_each(|octave| octave.cell[0] += 1);
+            assert!(largest_difference(&octaves, &wrong, &camera, functions) > 0.3);
+        }
+    }
+}

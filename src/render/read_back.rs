@@ -59,3 +59,15 @@ impl ReadBack {
 fn padded(bytes: u32) -> u32 {
     bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)
 }
+
+/// Finishes the commands and copies a whole buffer to memory.
+#[cfg(test)]
+pub(super) fn fetch_buffer(gpu: &Gpu, mut encoder: wgpu::CommandEncoder, source: &wgpu::Buffer) -> Vec<u8> {
+    let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
+    let target = super::geometry_pass::buffer(gpu, source.size(), usage);
+    encoder.copy_buffer_to_buffer(source, 0, &target, 0, source.size());
+    gpu.queue.submit([encoder.finish()]);
+    target.map_async(wgpu::MapMode::Read, .., |_| ());
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the adapter works");
+    target.get_mapped_range(..).expect("a mapped buffer").to_vec()
+}

@@ -1,6 +1,7 @@
 //! Square tiles of terrain vertices, each of one level of a quadtree.
 
 use crate::scene::{GroundDetail, GroundSample, Terrain};
+use nalgebra::Vector2;
 
 /// Vertices along a tile's edge: `SIDE` in `shaders/terrain_geometry.wgsl`.
 pub(super) const SIDE: usize = 33;
@@ -15,9 +16,9 @@ pub(super) const COARSEST_LEVEL: i32 = 12;
 /// Relief and albedo of this many spacings and more are the vertices' to carry; finer ones are shaded per pixel.
 const SHADE_SPACINGS: f64 = 16.0;
 /// Relief of this many spacings and more displaces vertices.
-const HEIGHT_SPACINGS: f64 = 3.0;
+const HEIGHT_SPACINGS: f64 = 1.5;
 /// Classes of craters and rocks whose smallest diameter has this many spacings are drawn.
-const FEATURE_SPACINGS: f64 = 3.0;
+const FEATURE_SPACINGS: f64 = 2.0;
 
 /// Height in m, gradient by x and y, relative change of albedo.
 pub(super) type TileVertex = [f32; 4];
@@ -79,10 +80,11 @@ impl TileKey {
     ) {
         let [x_m, y_m] = self.corner_m();
         let step_m = step * self.spacing_m();
+        let low_m = Vector2::new(x_m, y_m);
+        let patch = terrain.patch(&low_m, &low_m.add_scalar(self.edge_m()), detail);
         for j in 0..side {
             for i in 0..side {
-                let ground = terrain.sample(x_m + i as f64 * step_m, y_m + j as f64 * step_m, detail);
-                vertices.push(vertex(&ground));
+                vertices.push(vertex(&patch.sample(x_m + i as f64 * step_m, y_m + j as f64 * step_m)));
             }
         }
     }

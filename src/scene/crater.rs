@@ -28,17 +28,15 @@ pub struct CraterClass {
 }
 
 /// Craters grow shallower for their diameter beyond this diameter in m.
-const SHALLOWING_M: f64 = 400.0;
+const SHALLOWING_M: f64 = 300.0;
 
 impl CraterClass {
-    /// Adds what this class does to a place (m).
-    pub fn add_to(&self, total: &mut FeatureSample, x_m: f64, y_m: f64) {
-        for feature in self.scatter.near(x_m, y_m) {
-            let from_center = Vector2::new(x_m, y_m) - feature.center_m;
-            let t_squared = 4.0 * from_center.norm_squared() / feature.diameter_m.powi(2);
-            if t_squared < Scatter::REACH_RADII.powi(2) {
-                self.crater(&feature).add_to(total, &from_center, t_squared.sqrt());
-            }
+    /// Adds what one crater does to a place (m).
+    pub fn add(&self, feature: &Feature, total: &mut FeatureSample, x_m: f64, y_m: f64) {
+        let from_center = Vector2::new(x_m, y_m) - feature.center_m;
+        let t_squared = 4.0 * from_center.norm_squared() / feature.diameter_m.powi(2);
+        if t_squared < Scatter::REACH_RADII.powi(2) {
+            self.crater(feature).add_to(total, &from_center, t_squared.sqrt());
         }
     }
 

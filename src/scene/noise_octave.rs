@@ -34,11 +34,14 @@ pub struct OctaveStrength {
     pub slope_at_1_m: f64,
     /// Hurst exponent: the slope of an octave goes as the wavelength to the power of this minus 1.
     pub hurst: f64,
-    /// Relative r.m.s. change of the albedo by one octave.
+    /// Relative r.m.s. change of the albedo by one octave, for wavelengths well below [`OctaveStrength::EVEN_ALBEDO_M`].
     pub albedo_contrast: f64,
 }
 
 impl OctaveStrength {
+    /// Albedo varies less, by the square root, at wavelengths beyond this one in m.
+    pub const EVEN_ALBEDO_M: f64 = 300.0;
+
     /// Slope of one octave at 1 m for which all octaves down to `scale_m` add up to `rms_slope`.
     pub fn slope_at_1_m_from_rms(&self, rms_slope: f64, scale_m: f64) -> f64 {
         let sum: f64 =
@@ -117,7 +120,8 @@ fn build(
             offset,
             seed,
             relief_m: slope * wavelength_m / slope_rms,
-            albedo: strength.albedo_contrast / value_rms,
+            albedo: strength.albedo_contrast
+                / (value_rms * (1.0 + wavelength_m / OctaveStrength::EVEN_ALBEDO_M).sqrt()),
         }
     };
     strength.wavelengths_m().enumerate().map(octave).collect()

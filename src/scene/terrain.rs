@@ -84,6 +84,24 @@ impl Terrain {
 
     /// The ground at a place in m with chosen details.
     pub fn sample(&self, x_m: f64, y_m: f64, detail: &GroundDetail) -> GroundSample {
+        let mut features = FeatureSample::default();
+        for class in self.craters(detail) {
+            class.scatter.near(x_m, y_m).for_each(|f| class.add(&f, &mut features, x_m, y_m));
+        }
+        for class in self.rocks(detail) {
+            class.scatter.near(x_m, y_m).for_each(|f| class.add(&f, &mut features, x_m, y_m));
+        }
+        self.relief_with(&features, x_m, y_m, detail)
+    }
+
+    /// Fractal relief with the given features on it.
+    pub(super) fn relief_with(
+        &self,
+        features: &FeatureSample,
+        x_m: f64,
+        y_m: f64,
+        detail: &GroundDetail,
+    ) -> GroundSample {
         let mut sample = GroundSample { height_m: 0.0, gradient: Vector2::zeros(), albedo_change: 0.0 };
         for octave in self.octaves.iter().take_while(|o| o.wavelength_m >= detail.height_m) {
             let weight = visibility(octave.wavelength_m, detail.footprint_m);
@@ -97,15 +115,23 @@ impl Terrain {
                 sample.albedo_change += octave.albedo * noise.albedo * weight;
             }
         }
-        let mut features = FeatureSample::default();
-        let seen = |scatter: &Scatter| scatter.smallest_m >= detail.feature_m;
-        self.craters.iter().take_while(|c| seen(&c.scatter)).for_each(|c| c.add_to(&mut features, x_m, y_m));
-        self.rocks.iter().take_while(|r| seen(&r.scatter)).for_each(|r| r.add_to(&mut features, x_m, y_m));
         // In this order, so that the origin comes out at exactly 0.
         sample.height_m = sample.height_m + features.height_m - self.height_at_origin_m;
         sample.gradient += features.gradient;
         sample.albedo_change += features.albedo;
         sample
+    }
+
+    /// Classes of craters that a choice of details shows.
+    pub(super) fn craters(&self, detail: &GroundDetail) -> impl Iterator<Item = &CraterClass> {
+        let smallest_m = detail.feature_m;
+        self.craters.iter().take_while(move |c| c.scatter.smallest_m >= smallest_m)
+    }
+
+    /// Classes of rocks that a choice of details shows.
+    pub(super) fn rocks(&self, detail: &GroundDetail) -> impl Iterator<Item = &RockClass> {
+        let smallest_m = detail.feature_m;
+        self.rocks.iter().take_while(move |r| r.scatter.smallest_m >= smallest_m)
     }
 
     /// Octaves of relief and albedo, the largest first.
@@ -131,7 +157,7 @@ fn crater_classes(config: &TerrainConfig, seed: u64) -> Vec<CraterClass> {
             scatter,
             depth_ratio: config.crater_depth_ratio,
             site_slope: config.site_slope,
-            albedo_contrast: 5.0 * config.albedo_contrast,
+            albedo_contrast: 3.0 * config.albedo_contrast,
         })
         .collect()
 }
@@ -143,7 +169,7 @@ fn rock_classes(config: &TerrainConfig, seed: u64) -> Vec<RockClass> {
         .map(|scatter| RockClass {
             scatter,
             site_slope: config.site_slope,
-            albedo_contrast: 10.0 * config.albedo_contrast,
+            albedo_contrast: 3.0 * config.albedo_contrast,
         })
         .collect()
 }

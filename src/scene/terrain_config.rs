@@ -31,7 +31,8 @@ pub struct TerrainConfig {
     pub slope_scale_m: f64,
     /// Mean albedo, 0 to 1 (default 0.2).
     pub albedo: f64,
-    /// Relative r.m.s. variation of the albedo, per octave (default 0.025).
+    /// Relative r.m.s. variation of the albedo, per octave (default 0.04); less at wavelengths of
+    /// kilometres.
     pub albedo_contrast: f64,
     /// Probability of each crater that a cell of the crater grid can hold, for the smallest craters, 0 (none) to 1 (default
     /// 0.5).
@@ -42,7 +43,7 @@ pub struct TerrainConfig {
     pub largest_crater_m: f64,
     /// Exponent b of the number of craters larger than a diameter, N(>D) ~ D^-b (default 2).
     pub crater_exponent: f64,
-    /// Depth over diameter of a fresh crater (default 0.2).
+    /// Depth over diameter of a fresh crater (default 0.18).
     pub crater_depth_ratio: f64,
     /// Probability of each rock that a cell of the rock grid can hold, for the smallest rocks, 0 (none) to 1 (default 0.35).
     pub rock_density: f64,
@@ -65,12 +66,12 @@ impl Default for TerrainConfig {
             rms_slope: 0.09,
             slope_scale_m: 1.0,
             albedo: 0.2,
-            albedo_contrast: 0.025,
+            albedo_contrast: 0.04,
             crater_density: 0.5,
             smallest_crater_m: 0.3,
             largest_crater_m: 800.0,
             crater_exponent: 2.0,
-            crater_depth_ratio: 0.2,
+            crater_depth_ratio: 0.18,
             rock_density: 0.35,
             smallest_rock_m: 0.06,
             largest_rock_m: 4.0,

@@ -22,17 +22,12 @@ const HEIGHT_RATIO: f64 = 0.15;
 const SLIMMEST: f64 = 0.6;
 
 impl RockClass {
-    /// Adds what this class does to a place (m).
-    pub fn add_to(&self, total: &mut FeatureSample, x_m: f64, y_m: f64) {
-        for feature in self.scatter.near(x_m, y_m) {
-            let from_center = Vector2::new(x_m, y_m) - feature.center_m;
-            if 4.0 * from_center.norm_squared() < feature.diameter_m.powi(2) {
-                self.add_rock(total, &feature, &from_center);
-            }
+    /// Adds what one rock does to a place (m).
+    pub fn add(&self, feature: &Feature, total: &mut FeatureSample, x_m: f64, y_m: f64) {
+        let from_center = Vector2::new(x_m, y_m) - feature.center_m;
+        if 4.0 * from_center.norm_squared() >= feature.diameter_m.powi(2) {
+            return;
         }
-    }
-
-    fn add_rock(&self, total: &mut FeatureSample, feature: &Feature, from_center: &Vector2<f64>) {
         let [turn, slimness, tint, stature] = feature.random;
         let rock_from_site = Rotation2::new(turn * std::f64::consts::PI);
         let stretch = Vector2::new(1.0, 1.0 / (SLIMMEST + (1.0 - SLIMMEST) * slimness)) * (2.0 / feature.diameter_m);

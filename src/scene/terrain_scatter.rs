@@ -64,6 +64,24 @@ impl Scatter {
         })
     }
 
+    /// Features that may reach a rectangle (corners in m), in the order in which [`Scatter::near`] gives them.
+    pub fn within(&self, low_m: &Vector2<f64>, high_m: &Vector2<f64>) -> Vec<Feature> {
+        let cell_m = 2.0 * Scatter::REACH_RADII * self.smallest_m;
+        let first = low_m.map(|c| (c / cell_m - 0.5).floor() as i64);
+        let last = high_m.map(|c| (c / cell_m + 0.5).floor() as i64);
+        let mut found = Vec::new();
+        for which in 0..FEATURES_PER_CELL {
+            for y in first.y..=last.y {
+                found.extend((first.x..=last.x).filter_map(|x| self.feature([x, y], which, cell_m)));
+            }
+        }
+        found.retain(|f| {
+            let nearest = f.center_m.sup(low_m).inf(high_m);
+            (f.center_m - nearest).norm() < 0.5 * f.diameter_m * Scatter::REACH_RADII
+        });
+        found
+    }
+
     fn feature(&self, cell: [i64; 2], which: u32, cell_m: f64) -> Option<Feature> {
         let unit = |h: u32| f64::from(h) / 65536.0;
         let salt = which.wrapping_mul(0x9e37_79b9);

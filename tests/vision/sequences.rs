@@ -54,8 +54,8 @@ fn config() -> FrontEndConfig {
     FrontEndConfig { detector, ..FrontEndConfig::default() }
 }
 
-fn gyro(from: i64, to: i64) -> UnitQuaternion<f64> {
-    so3::exp(&Vector3::new(0.001, 0.0005, -0.001)) * true_rotation(index(from), index(to))
+fn gyro(from: i64, to: i64) -> Option<UnitQuaternion<f64>> {
+    Some(so3::exp(&Vector3::new(0.001, 0.0005, -0.001)) * true_rotation(index(from), index(to)))
 }
 
 /// Everything but the times.
