@@ -9,13 +9,15 @@ use super::VisionError;
 use super::front_end::DesignatedStep;
 use super::local_affine::{Affine, Match, fit_affine};
 use super::patch::refine_by_patch;
-use super::sequence::{Chain, Job};
-use super::tracks::TrackNumbers;
+use super::sequence::Job;
+use super::tracks::Tracks;
 use crate::dataset::{DesignatedPoint, Frame};
 use image::GrayImage;
 use nalgebra::Matrix2;
 use std::collections::VecDeque;
 
+/// Half the side of the patch about the point, px.
+const HALF_PX: i32 = 15;
 /// Pictures back to which the point may be tied.
 const MEMORY: usize = 8;
 /// The point ends this close to the edge, px.
@@ -33,8 +35,7 @@ struct Past {
 pub(super) fn carry_designated(
     job: &Job,
     chosen: &[&Frame],
-    chain: &Chain,
-    numbers: &TrackNumbers,
+    tracks: &Tracks,
     start: &DesignatedPoint,
 ) -> Result<Vec<DesignatedStep>, VisionError> {
     let first = chosen.iter().position(|f| f.t_ns == start.t_ns).unwrap_or(0);
@@ -53,8 +54,9 @@ pub(super) fn carry_designated(
     past.push_back(Past { frame: first, picture: job.sequence.load(chosen[first])?, step: steps[0] });
     for (frame, file) in chosen.iter().enumerate().skip(first + 1) {
         let picture = job.sequence.load(file)?;
-        let carried = past.iter().find_map(|p| carry(p, (frame, &picture, file.t_ns), chain, numbers));
-        let Some(step) = carried.filter(|s| job.camera().contains(&s.pixel_px, MARGIN_PX)) else { break };
+        let carried: Vec<DesignatedStep> =
+            past.iter().filter_map(|p| carry(p, (frame, &picture, file.t_ns), tracks)).collect();
+        let Some(step) = fused(&carried).filter(|s| job.camera().contains(&s.pixel_px, MARGIN_PX)) else { break };
         steps.push(step);
         past.push_back(Past { frame, picture, step });
         if past.len() > MEMORY {
@@ -66,16 +68,8 @@ pub(super) fn carry_designated(
 
 /// The point in a new picture from a past one; `None` where too few tracks near it are shared, or the scale changed too
 /// much.
-fn carry(
-    past: &Past,
-    (frame, picture, t_ns): (usize, &GrayImage, i64),
-    chain: &Chain,
-    numbers: &TrackNumbers,
-) -> Option<DesignatedStep> {
-    let (a, b) = (&chain.frames[past.frame].features, &chain.frames[frame].features);
-    let shared = numbers.shared(past.frame, frame);
-    let pairs: Vec<Match> =
-        shared.into_iter().map(|(i, j)| (a[i].pixel_px, b[j].pixel_px, a[i].sigma_px.hypot(b[j].sigma_px))).collect();
+fn carry(past: &Past, (frame, picture, t_ns): (usize, &GrayImage, i64), tracks: &Tracks) -> Option<DesignatedStep> {
+    let pairs: Vec<Match> = tracks.shared(past.frame, frame);
     let adjacent = frame == past.frame + 1;
     let local = fit_affine(&past.step.pixel_px, &pairs, if adjacent { 8 } else { 16 })?;
     let scale = local.affine.linear.determinant().abs().sqrt();
@@ -83,7 +77,7 @@ fn carry(
         return None;
     }
     let predicted = local.affine.apply(&past.step.pixel_px);
-    let refined = refine_by_patch(&past.picture, picture, &past.step.pixel_px, &local.affine)
+    let refined = refine_by_patch((&past.picture, picture), &past.step.pixel_px, &local.affine, HALF_PX)
         .filter(|r| (r.pixel_px - predicted).norm() < 3.0 * local.sigma_px + 0.5);
     let (pixel_px, step_sigma_px) = match &refined {
         Some(r) => (r.pixel_px, r.sigma_px),
@@ -96,6 +90,23 @@ fn carry(
         covariance_px2: grown(&past.step.covariance_px2, &local.affine, step_sigma_px),
         t_ns_from: past.step.t_ns,
         refined: refined.is_some(),
+    })
+}
+
+/// Mean of what the past pictures say, by the inverse variance of each step. Their errors share a history, so the
+/// variances are averaged, not reduced; were each picture tied to one past picture alone, the point would split into
+/// several that drift apart.
+fn fused(carried: &[DesignatedStep]) -> Option<DesignatedStep> {
+    let nearest = carried.last()?;
+    let weight = |s: &DesignatedStep| s.step_sigma_px.max(1e-3).powi(-2);
+    let total: f64 = carried.iter().map(weight).sum();
+    let share = |s: &DesignatedStep| weight(s) / total;
+    Some(DesignatedStep {
+        pixel_px: carried.iter().map(|s| s.pixel_px * share(s)).sum(),
+        step_sigma_px: carried.iter().map(|s| s.step_sigma_px * share(s)).sum(),
+        covariance_px2: carried.iter().map(|s| s.covariance_px2 * share(s)).sum(),
+        refined: carried.iter().any(|s| s.refined),
+        ..*nearest
     })
 }
 

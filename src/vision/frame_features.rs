@@ -3,18 +3,22 @@
 use super::descriptor::{Descriptor, Orientation, describe};
 use super::front_end::FrameReport;
 use super::matching::{Described, IndexMatch, match_features, match_features_guided};
+use super::sharpen::Link;
 use super::silhouette::{bright_centroid_px, inside_silhouette};
+use super::tracks::SharedPoint;
 use super::{Feature, FrontEndConfig, FrontEndMode, MatchedPair, PixelMatches, VisionError, detect_harris};
 use crate::dataset::{Frame, ImageSequence};
 use crate::geometry::Camera;
+use image::GrayImage;
 use nalgebra::{UnitQuaternion, Vector2};
 use std::time::Instant;
 
-/// A picture's features and descriptors; the picture itself is gone.
+/// A picture's features and descriptors; the picture itself until its pairs are solved.
 pub(super) struct FrameFeatures {
     pub(super) features: Vec<Feature>,
     pub(super) centroid_px: Option<Vector2<f64>>,
     pub(super) report: FrameReport,
+    pub(super) picture: GrayImage,
     upright: Vec<Option<Descriptor>>,
     turned: Vec<Option<Descriptor>>,
 }
@@ -49,7 +53,7 @@ impl FrameFeatures {
             describe_ms,
             ..FrameReport::default()
         };
-        Ok(FrameFeatures { features, centroid_px, report, upright, turned })
+        Ok(FrameFeatures { features, centroid_px, report, picture, upright, turned })
     }
 
     fn described(&self, orientation: Orientation) -> Described<'_> {
@@ -60,8 +64,9 @@ impl FrameFeatures {
         Described { features: &self.features, descriptors }
     }
 
-    /// Drops what only matching needs.
-    pub(super) fn forget_descriptors(&mut self) {
+    /// Drops what only the pairs need.
+    pub(super) fn forget_picture(&mut self) {
+        self.picture = GrayImage::default();
         self.upright = Vec::new();
         self.turned = Vec::new();
     }
@@ -116,6 +121,29 @@ impl PairPixels {
             pixels.pair.from_px.push(from[i].pixel_px);
             pixels.pair.to_px.push(to[j].pixel_px);
             pixels.sigma_px.push((0.5 * (from[i].sigma_px.powi(2) + to[j].sigma_px.powi(2))).sqrt());
+        }
+        pixels
+    }
+
+    /// Pixels of the same points, each with the 1σ of the second given the first.
+    pub(super) fn from_shared(points: &[SharedPoint]) -> Self {
+        let mut pixels = PairPixels::default();
+        for (from_px, to_px, sigma_px) in points {
+            pixels.pair.from_px.push(*from_px);
+            pixels.pair.to_px.push(*to_px);
+            pixels.sigma_px.push(sigma_px * std::f64::consts::FRAC_1_SQRT_2);
+        }
+        pixels
+    }
+
+    /// The same matches with the second pixels where the links put them.
+    pub(super) fn sharpened(&self, links: &[Option<Link>]) -> Self {
+        let mut pixels = self.clone();
+        for (i, link) in links.iter().enumerate() {
+            if let Some(link) = link {
+                pixels.pair.to_px[i] = link.to_px;
+                pixels.sigma_px[i] = link.sigma_px * std::f64::consts::FRAC_1_SQRT_2;
+            }
         }
         pixels
     }

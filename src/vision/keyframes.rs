@@ -3,7 +3,7 @@
 use super::fixed_center::{CenterProblem, CenteredPair, rotation_about_center};
 use super::frame_features::PairPixels;
 use super::sequence::{Chain, Job, as_relative_rotation};
-use super::tracks::TrackNumbers;
+use super::tracks::Tracks;
 use super::{PairHints, PairSolution, PairStatus, RelativeRotation, VisionError, relative_rotation};
 use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
@@ -16,7 +16,7 @@ type Center<'a> = Option<&'a (Unit<Vector3<f64>>, Matrix2<f64>)>;
 pub(super) fn keyframe_rotations(
     job: &Job,
     chain: &Chain,
-    numbers: &TrackNumbers,
+    numbers: &Tracks,
     center: Center<'_>,
 ) -> Result<Vec<RelativeRotation>, VisionError> {
     let spans = job.config.keyframe_spans.iter().filter(|s| **s >= 2);
@@ -34,7 +34,7 @@ pub(super) fn keyframe_rotations(
 fn keyframe(
     job: &Job,
     chain: &Chain,
-    numbers: &TrackNumbers,
+    numbers: &Tracks,
     ((from, to), center): ((usize, usize), Center<'_>),
 ) -> Result<Option<RelativeRotation>, VisionError> {
     let Some(chained) = chained_rotation(chain, from, to) else { return Ok(None) };
@@ -43,7 +43,7 @@ fn keyframe(
         return Ok(None);
     }
     let (a, b) = (&chain.frames[from], &chain.frames[to]);
-    let pixels = PairPixels::new(&a.features, &b.features, shared.into_iter());
+    let pixels = PairPixels::from_shared(&shared);
     let solution: PairSolution = match center {
         None => {
             let hints = PairHints { camera_to_from_camera_from: Some(chained), normal_in_from: None };

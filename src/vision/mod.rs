@@ -51,6 +51,8 @@ mod rotations_file;
 #[cfg(feature = "vision")]
 mod sequence;
 #[cfg(feature = "vision")]
+mod sharpen;
+#[cfg(feature = "vision")]
 mod sight;
 #[cfg(feature = "vision")]
 mod silhouette;

@@ -4,28 +4,25 @@ use super::local_affine::Affine;
 use image::GrayImage;
 use nalgebra::{Matrix3, Vector2, Vector3, Vector4};
 
-/// Half the patch's side, px.
-const HALF: i32 = 15;
-
 /// A refined pixel.
 pub(super) struct Refined {
     pub(super) pixel_px: Vector2<f64>,
     pub(super) sigma_px: f64,
 }
 
-/// Aligns the old patch, warped by `affine`, with the new picture: shift, gain and offset, by Gauss-Newton. `None` at the
-/// edge, on featureless ground, or where the patches do not look alike (correlation below 0.8).
+/// Aligns the old patch of `2 half_px + 1` pixels a side, warped by `affine`, with the new picture: shift, gain and
+/// offset, by Gauss-Newton. `None` at the edge, on featureless ground, or where the patches do not look alike (correlation below 0.8).
 pub(super) fn refine_by_patch(
-    old: &GrayImage,
-    new: &GrayImage,
+    (old, new): (&GrayImage, &GrayImage),
     old_px: &Vector2<f64>,
     affine: &Affine,
+    half_px: i32,
 ) -> Option<Refined> {
     let to_old = affine.linear.try_inverse()?;
     let mut pixel = affine.apply(old_px);
-    let template = sample_patch(old, |d| old_px + to_old * d)?;
+    let template = sample_patch(old, half_px, |d| old_px + to_old * d)?;
     for _ in 0..15 {
-        let (step, quality) = alignment(&template, new, &pixel)?;
+        let (step, quality) = alignment(&template, new, &pixel, half_px)?;
         pixel += step;
         if (pixel - affine.apply(old_px)).norm() > 6.0 {
             return None;
@@ -42,14 +39,12 @@ struct Quality {
     sigma_px: f64,
 }
 
-const SIDE: usize = (2 * HALF + 1) as usize;
-
-fn offsets() -> impl Iterator<Item = Vector2<f64>> {
-    (-HALF..=HALF).flat_map(|v| (-HALF..=HALF).map(move |u| Vector2::new(f64::from(u), f64::from(v))))
+fn offsets(half_px: i32) -> impl Iterator<Item = Vector2<f64>> {
+    (-half_px..=half_px).flat_map(move |v| (-half_px..=half_px).map(move |u| Vector2::new(f64::from(u), f64::from(v))))
 }
 
-fn sample_patch(picture: &GrayImage, place: impl Fn(Vector2<f64>) -> Vector2<f64>) -> Option<Vec<f64>> {
-    offsets().map(|d| sample(picture, &place(d))).collect()
+fn sample_patch(picture: &GrayImage, half_px: i32, place: impl Fn(Vector2<f64>) -> Vector2<f64>) -> Option<Vec<f64>> {
+    offsets(half_px).map(|d| sample(picture, &place(d))).collect()
 }
 
 /// Bilinear grey level; `None` outside.
@@ -64,11 +59,12 @@ fn sample(picture: &GrayImage, p: &Vector2<f64>) -> Option<f64> {
 }
 
 /// One Gauss-Newton step of the shift, and how alike the patches are.
-fn alignment(template: &[f64], new: &GrayImage, pixel: &Vector2<f64>) -> Option<(Vector2<f64>, Quality)> {
-    let here = sample_patch(new, |d| pixel + d)?;
+fn alignment(template: &[f64], new: &GrayImage, pixel: &Vector2<f64>, half_px: i32) -> Option<(Vector2<f64>, Quality)> {
+    let here = sample_patch(new, half_px, |d| pixel + d)?;
+    let side = (2 * half_px + 1) as usize;
     let (mut normal, mut right) = (nalgebra::Matrix4::<f64>::zeros(), Vector4::zeros());
-    for index in interior() {
-        let slope = Vector2::new(here[index + 1] - here[index - 1], here[index + SIDE] - here[index - SIDE]) * 0.5;
+    for index in interior(side) {
+        let slope = Vector2::new(here[index + 1] - here[index - 1], here[index + side] - here[index - side]) * 0.5;
         let row = Vector4::new(slope.x, slope.y, -template[index], -1.0);
         normal += row * row.transpose();
         right -= row * here[index];
@@ -77,10 +73,10 @@ fn alignment(template: &[f64], new: &GrayImage, pixel: &Vector2<f64>) -> Option<
     let solution = normal.cholesky()?.solve(&right);
     let (gain, offset) = (solution[2], solution[3]);
     let shift = Vector2::new(solution[0], solution[1]);
-    let count = interior().count() as f64;
+    let count = interior(side).count() as f64;
     let mut moments = Matrix3::zeros();
     let mut misfit = 0.0;
-    for index in interior() {
+    for index in interior(side) {
         let m = Vector3::new(1.0, here[index], template[index]);
         moments += m * m.transpose();
         misfit += (here[index] - gain * template[index] - offset).powi(2);
@@ -94,6 +90,6 @@ fn alignment(template: &[f64], new: &GrayImage, pixel: &Vector2<f64>) -> Option<
     (shift.norm().is_finite() && sigma_px < 1.0).then_some((shift, Quality { correlation, sigma_px }))
 }
 
-fn interior() -> impl Iterator<Item = usize> {
-    (1..SIDE - 1).flat_map(|v| (1..SIDE - 1).map(move |u| v * SIDE + u))
+fn interior(side: usize) -> impl Iterator<Item = usize> {
+    (1..side - 1).flat_map(move |v| (1..side - 1).map(move |u| v * side + u))
 }

@@ -6,7 +6,8 @@ use super::frame_features::{FrameFeatures, PairPixels, Way, match_pair, millisec
 use super::front_end::{FrontEnd, RotationPrediction, TrackInputs};
 use super::keyframes::keyframe_rotations;
 use super::matching::IndexMatch;
-use super::tracks::TrackNumbers;
+use super::sharpen::{Link, sharpen};
+use super::tracks::Tracks;
 use super::{
     FrontEndConfig, FrontEndMode, PairHints, PairSolution, PairStatus, RelativeRotation, RotationModel,
     TrackObservation, VisionError, relative_rotation,
@@ -25,16 +26,18 @@ pub(super) struct Pair {
     pub(super) matches: Vec<IndexMatch>,
     pub(super) pixels: PairPixels,
     pub(super) solution: PairSolution,
+    links: Vec<Option<Link>>,
     match_ms: f64,
     rotation_ms: f64,
 }
 
 impl Pair {
-    /// Matches that may extend tracks.
-    pub(super) fn verified(&self) -> impl Iterator<Item = IndexMatch> + '_ {
+    /// Matches that may extend tracks, with their links.
+    pub(super) fn verified(&self) -> impl Iterator<Item = (IndexMatch, Option<Link>)> + '_ {
         let usable = matches!(self.solution.status, PairStatus::Ok | PairStatus::NoMotion | PairStatus::Degenerate);
-        let agreeing = self.matches.iter().zip(&self.solution.inliers);
-        agreeing.filter(move |(_, inlier)| usable && **inlier).map(|(m, _)| *m)
+        let links = self.links.iter().copied().chain(std::iter::repeat(None));
+        let agreeing = self.matches.iter().zip(links).zip(&self.solution.inliers);
+        agreeing.filter(move |(_, inlier)| usable && **inlier).map(|((m, link), _)| (*m, link))
     }
 }
 
@@ -86,18 +89,18 @@ pub fn track_sequence(
         FrontEndMode::Auto => settle_rivals(&job, &mut chain)?,
         FrontEndMode::FixedCenter => solve_about_center(&job, &mut chain),
     };
-    let numbers = number_tracks(&chain);
+    let tracks = chain_tracks(&chain);
     let mut rotations: Vec<RelativeRotation> = (0..chain.pairs.len()).map(|k| adjacent(&chain, k)).collect();
-    rotations.extend(keyframe_rotations(&job, &chain, &numbers, center.as_ref())?);
+    rotations.extend(keyframe_rotations(&job, &chain, &tracks, center.as_ref())?);
     let designated = match &inputs.designated {
-        Some(start) => carry_designated(&job, &chosen, &chain, &numbers, start)?,
+        Some(start) => carry_designated(&job, &chosen, &tracks, start)?,
         None => Vec::new(),
     };
     let mut observations = Vec::new();
     for (k, frame) in chain.frames.iter().enumerate() {
         let t_ns = frame.report.t_ns;
         observations.extend(designated.iter().filter(|d| d.t_ns == t_ns).map(|d| d.observation()));
-        observations.extend(numbers.observations(k, t_ns, &frame.features));
+        observations.extend(tracks.observations(k, t_ns, &frame.features));
     }
     Ok(FrontEnd {
         observations,
@@ -132,10 +135,10 @@ fn link(job: &Job, chosen: &[&Frame], progress: &(dyn Fn(usize) + Sync)) -> Resu
         let first = chain.frames.len().saturating_sub(1);
         chain.frames.extend(chunk.par_iter().map(find).collect::<Result<Vec<_>, _>>()?);
         let open: Vec<&[FrameFeatures]> = chain.frames[first..].windows(2).collect();
-        let pairs = open.par_iter().map(|w| solve_pair(job, &w[0], &w[1])).collect::<Result<Vec<_>, _>>()?;
+        let pairs = open.par_iter().map(|w| solve_sharp_pair(job, &w[0], &w[1])).collect::<Result<Vec<_>, _>>()?;
         chain.pairs.extend(pairs);
         let last = chain.frames.len() - 1;
-        chain.frames[first..last].iter_mut().for_each(FrameFeatures::forget_descriptors);
+        chain.frames[first..last].iter_mut().for_each(FrameFeatures::forget_picture);
     }
     for (k, pair) in chain.pairs.iter().enumerate() {
         let report = &mut chain.frames[k + 1].report;
@@ -144,13 +147,40 @@ fn link(job: &Job, chosen: &[&Frame], progress: &(dyn Fn(usize) + Sync)) -> Resu
     Ok(chain)
 }
 
+/// Solves a pair, sharpens the matches that agree, and solves it again with them.
+fn solve_sharp_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pair, VisionError> {
+    let mut pair = solve_pair(job, from, to)?;
+    if pair.solution.inlier_count() == 0 {
+        return Ok(pair);
+    }
+    let start = Instant::now();
+    pair.links = sharpen((&from.picture, &to.picture), &pair.pixels, &pair.solution.inliers);
+    pair.match_ms += milliseconds(start);
+    let start = Instant::now();
+    let pixels = pair.pixels.sharpened(&pair.links);
+    let predicted = job.predicted(from.report.t_ns, to.report.t_ns);
+    let solution = first_solution(job, &pixels, predicted)?;
+    if solution.status == PairStatus::Ok || pair.solution.status != PairStatus::Ok {
+        (pair.pixels, pair.solution) = (pixels, solution);
+    }
+    pair.rotation_ms += milliseconds(start);
+    Ok(pair)
+}
+
 /// Matches a pair in one way after another until the motion is clear; the best attempt otherwise.
 fn solve_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pair, VisionError> {
     let predicted = job.predicted(from.report.t_ns, to.report.t_ns);
     let fewest = job.config.rotation.min_matches;
     if from.features.len() < fewest || to.features.len() < fewest {
         let solution = PairSolution::failed(PairStatus::NoFeatures, 0);
-        return Ok(Pair { matches: vec![], pixels: PairPixels::default(), solution, match_ms: 0.0, rotation_ms: 0.0 });
+        return Ok(Pair {
+            matches: vec![],
+            pixels: PairPixels::default(),
+            solution,
+            links: vec![],
+            match_ms: 0.0,
+            rotation_ms: 0.0,
+        });
     }
     let ways = [Way::Guided, Way::Upright, Way::Turned];
     let mut best: Option<Pair> = None;
@@ -166,7 +196,7 @@ fn solve_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pai
             && solution.inlier_count() >= 3 * fewest;
         let better = best.as_ref().is_none_or(|b| solution.inlier_count() > b.solution.inlier_count());
         if better {
-            best = Some(Pair { matches, pixels, solution, match_ms, rotation_ms });
+            best = Some(Pair { matches, pixels, solution, links: vec![], match_ms, rotation_ms });
         }
         if clear {
             break;
@@ -257,12 +287,13 @@ fn solve_about_center(job: &Job, chain: &mut Chain) -> Center {
     Some((solved.center_in_camera, solved.center_covariance_rad2))
 }
 
-fn number_tracks(chain: &Chain) -> TrackNumbers {
-    let mut numbers = TrackNumbers::new(chain.frames.iter().map(|f| f.features.len()));
+fn chain_tracks(chain: &Chain) -> Tracks {
+    let mut tracks = Tracks::new(chain.frames.iter().map(|f| f.features.len()));
     for (k, pair) in chain.pairs.iter().enumerate() {
-        numbers.chain(k, pair.verified());
+        let features = (chain.frames[k].features.as_slice(), chain.frames[k + 1].features.as_slice());
+        tracks.chain(k, features, pair.verified());
     }
-    numbers
+    tracks
 }
 
 fn adjacent(chain: &Chain, k: usize) -> RelativeRotation {
