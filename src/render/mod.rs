@@ -26,6 +26,7 @@ mod terrain_geometry;
 mod terrain_levels;
 mod terrain_pool;
 mod terrain_tile;
+mod terrain_view;
 
 pub use config::{Photometry, RenderConfig};
 pub use error::RenderError;

@@ -4,10 +4,11 @@ use super::body_geometry::BodyGeometry;
 use super::geometry_pass::Role;
 use super::gpu_data::{Geometry, Shading, columns, dropped, four};
 use super::noise::octave_table;
-use super::projection::{clip_from_camera, side_planes_in_camera};
+use super::projection::clip_from_camera;
 use super::shadow::{ShadowBox, ShadowMap, shadow_axes, texture_from_clip};
 use super::terrain_geometry::TerrainGeometry;
-use super::terrain_levels::{LevelRange, ViewVolume};
+use super::terrain_levels::LevelRange;
+use super::terrain_view::{ground_box, view_volume};
 use super::{Gpu, RenderConfig, RenderError, World};
 use crate::geometry::Camera;
 use crate::scene::{BodySurface, NoiseOctave, OctaveStrength, View};
@@ -71,53 +72,29 @@ impl Surface {
         (camera, config): (&Camera, &RenderConfig),
         shadow_map: &ShadowMap,
     ) -> Result<Shading, RenderError> {
-        let eye = view.reference_from_camera.translation.vector;
-        let (covered, levels, anchor, distance_m) = match &mut self.kind {
-            Kind::Body(body) => {
-                body.check_view(view)?;
-                let (center_m, radius_m) = body.bounding_sphere();
-                let margin_m = 1.02 * radius_m;
-                let covered =
-                    ShadowBox { center_m: center_m - eye, half_side_m: margin_m, half_depth_m: 1.1 * radius_m };
-                (covered, None, Vector3::zeros(), (center_m - eye).norm() - radius_m)
-            }
-            Kind::Terrain(terrain) => {
-                let height_m = terrain.check_view(view)?;
-                let levels = LevelRange::new(height_m, camera.mean_focal_px(), config.vertex_spacing_px);
-                let covered = ground_box(camera, view, height_m);
-                terrain.prepare(gpu, &view_volume(camera, view, &covered), &levels)?;
-                let anchor = TerrainGeometry::anchor_m(&eye);
-                (covered, Some(levels), Vector3::new(anchor.x, anchor.y, 0.0), height_m)
-            }
+        let placement = match &mut self.kind {
+            Kind::Body(body) => place_body(body, view)?,
+            Kind::Terrain(terrain) => place_terrain(terrain, gpu, view, (camera, config))?,
         };
         let rotation = view.reference_from_camera.rotation.to_homogeneous();
-        let shadow_clip = covered.clip_from_relative(&shadow_axes(&view.sun_in_reference));
-        let level = levels.map_or([0.0; 4], |l| {
-            [l.height_m as f32, l.range_over_spacing as f32, l.morph_start as f32, l.morph_end as f32]
-        });
-        let from_anchor = eye - anchor;
-        let geometry = |clip: &Matrix4<f64>| Geometry {
-            clip_from_relative: columns(clip),
-            forward: four(&(view.reference_from_camera.rotation * Vector3::z()), 0.0),
-            camera_high: four(&from_anchor, 0.0),
-            camera_low: four(&dropped(&from_anchor), 0.0),
-            level,
-        };
-        self.set_geometry(gpu, Role::Picture, &geometry(&(clip_from_camera(camera) * rotation.transpose())));
-        self.set_geometry(gpu, Role::Shadow, &geometry(&shadow_clip));
+        let shadow_clip = placement.covered.clip_from_relative(&shadow_axes(&view.sun_in_reference));
+        let picture_clip = clip_from_camera(camera) * rotation.transpose();
+        self.set_geometry(gpu, Role::Picture, &placement.geometry(view, &picture_clip));
+        self.set_geometry(gpu, Role::Shadow, &placement.geometry(view, &shadow_clip));
 
-        let finest_m = 0.5 * distance_m.max(0.0) / camera.mean_focal_px();
-        let (octaves, count) = octave_table(&self.octaves, &eye, finest_m);
-        let sky = if levels.is_some() { config.sky_light } else { 0.0 };
-        let weight = config.photometry.lunar_weight();
+        let finest_m = 0.5 * placement.nearest_m.max(0.0) / camera.mean_focal_px();
+        let eye_m = view.reference_from_camera.translation.vector;
+        let (octaves, count) = octave_table(&self.octaves, &eye_m, finest_m);
+        let sky = if placement.levels.is_some() { config.sky_light } else { 0.0 };
+        let texel_m = shadow_map.texel_m(&placement.covered);
         Ok(Shading {
             reference_from_camera: columns(&rotation),
             shadow_from_relative: columns(&(texture_from_clip() * shadow_clip)),
             sun: four(&view.sun_in_reference, sky),
             intrinsics: [camera.focal_px.x, camera.focal_px.y, camera.center_px.x, camera.center_px.y]
                 .map(|v| v as f32),
-            surface: [self.mean_albedo, weight, self.detail_slope, shadow_map.texel_m(&covered)].map(|v| v as f32),
-            level,
+            surface: [self.mean_albedo, config.photometry.lunar_weight(), self.detail_slope, texel_m].map(|v| v as f32),
+            level: placement.level(),
             counts: [config.supersampling, count, 0, 0],
             octaves,
         })
@@ -138,6 +115,58 @@ impl Surface {
     }
 }
 
+/// Where a surface lies in one view.
+struct Placement {
+    /// What the shadow map covers.
+    covered: ShadowBox,
+    /// Levels of terrain.
+    levels: Option<LevelRange>,
+    /// Origin of the vertices in the reference frame, m.
+    anchor_m: Vector3<f64>,
+    /// No surface is nearer, in m.
+    nearest_m: f64,
+}
+
+impl Placement {
+    fn level(&self) -> [f32; 4] {
+        self.levels
+            .map_or([0.0; 4], |l| [l.height_m, l.range_over_spacing, l.morph_start, l.morph_end].map(|v| v as f32))
+    }
+
+    fn geometry(&self, view: &View, clip_from_relative: &Matrix4<f64>) -> Geometry {
+        let from_anchor_m = view.reference_from_camera.translation.vector - self.anchor_m;
+        Geometry {
+            clip_from_relative: columns(clip_from_relative),
+            forward: four(&(view.reference_from_camera.rotation * Vector3::z()), 0.0),
+            camera_high: four(&from_anchor_m, 0.0),
+            camera_low: four(&dropped(&from_anchor_m), 0.0),
+            level: self.level(),
+        }
+    }
+}
+
+fn place_body(body: &BodyGeometry, view: &View) -> Result<Placement, RenderError> {
+    body.check_view(view)?;
+    let (center_m, radius_m) = body.bounding_sphere();
+    let center_m = center_m - view.reference_from_camera.translation.vector;
+    let covered = ShadowBox { center_m, half_side_m: 1.02 * radius_m, half_depth_m: 1.1 * radius_m };
+    Ok(Placement { covered, levels: None, anchor_m: Vector3::zeros(), nearest_m: center_m.norm() - radius_m })
+}
+
+fn place_terrain(
+    terrain: &mut TerrainGeometry,
+    gpu: &Gpu,
+    view: &View,
+    (camera, config): (&Camera, &RenderConfig),
+) -> Result<Placement, RenderError> {
+    let height_m = terrain.check_view(view)?;
+    let levels = LevelRange::new(height_m, camera.mean_focal_px(), config.vertex_spacing_px);
+    let covered = ground_box(camera, view, height_m);
+    terrain.prepare(gpu, &view_volume(camera, view, &covered), &levels)?;
+    let anchor = TerrainGeometry::anchor_m(&view.reference_from_camera.translation.vector);
+    Ok(Placement { covered, levels: Some(levels), anchor_m: anchor.push(0.0), nearest_m: height_m })
+}
+
 /// Octaves of a small body's detail.
 fn body_octaves(surface: &BodySurface) -> Vec<NoiseOctave> {
     let largest_m = surface.detail_wavelength_m;
@@ -154,42 +183,4 @@ fn body_octaves(surface: &BodySurface) -> Vec<NoiseOctave> {
     let share_m = (BODY_SLOPE_SHARE * largest_m).max(strength.smallest_m);
     strength.slope_at_1_m = strength.slope_at_1_m_from_rms(surface.detail_slope, share_m);
     NoiseOctave::solid(&strength, surface.seed, "body-detail")
-}
-
-fn view_volume(camera: &Camera, view: &View, covered: &ShadowBox) -> ViewVolume {
-    let rotation = view.reference_from_camera.rotation;
-    // Gentle terrain: what stands a few per cent of the picture's width higher throws its shadow this far.
-    let reach_m = 2.0 + 0.06 * covered.half_side_m / view.sun_in_reference.z.max(0.05);
-    ViewVolume {
-        camera_in_site_m: view.reference_from_camera.translation.vector,
-        sides_in_site: side_planes_in_camera(camera).map(|n| rotation * n),
-        shadow_in_site_m: -view.sun_in_reference.into_inner() * reach_m,
-    }
-}
-
-/// Box around the ground in view; beyond `FARTHEST_HEIGHTS` heights of the camera there are no cast shadows.
-fn ground_box(camera: &Camera, view: &View, height_m: f64) -> ShadowBox {
-    const FARTHEST_HEIGHTS: f64 = 12.0;
-    const RAYS: u32 = 16;
-    let axes = shadow_axes(&view.sun_in_reference);
-    let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
-    for k in 0..(RAYS + 1) * (RAYS + 1) {
-        let share = |i: u32, size: u32| f64::from(i) / f64::from(RAYS) * f64::from(size) - 0.5;
-        let u = share(k % (RAYS + 1), camera.width_px);
-        let v = share(k / (RAYS + 1), camera.height_px);
-        let ideal = Vector3::new(
-            (u - camera.center_px.x) / camera.focal_px.x,
-            (v - camera.center_px.y) / camera.focal_px.y,
-            1.0,
-        );
-        let ray = view.reference_from_camera.rotation * ideal;
-        let steep = (-ray.z).max(ray.xy().norm() / FARTHEST_HEIGHTS).max(1e-9);
-        let place = Vector3::new(ray.x, ray.y, 0.0) * (height_m / steep) - Vector3::z() * height_m;
-        let seen = axes * place;
-        (low, high) = (low.inf(&seen), high.sup(&seen));
-    }
-    let half = 0.5 * (high - low);
-    let half_side_m = 1.05 * half.x.max(half.y) + 0.05 * height_m;
-    let half_depth_m = half.z + (2.0 * half_side_m).max(500.0);
-    ShadowBox { center_m: axes.tr_mul(&(0.5 * (low + high))), half_side_m, half_depth_m }
 }
