@@ -23,6 +23,7 @@ struct LandingError {
     roll_pitch_yaw_rad: Vector3<f64>,
     sigma: Option<SVector<f64, 9>>,
     normalized: Option<NormalizedSample<9>>,
+    estimated_designated_in_site_m: Vector3<f64>,
     true_site_from_lander: Isometry3<f64>,
     estimated_site_from_lander: Isometry3<f64>,
 }
@@ -75,6 +76,7 @@ fn landing_error(states: &[LanderState], epoch: &LandingEpoch) -> Option<Landing
         roll_pitch_yaw_rad: turn.map(|angle| (angle + PI).rem_euclid(TAU) - PI),
         sigma: epoch.covariance.map(|c| sigma_of(&c, &estimated.rotation)).or(epoch.sigma),
         normalized: epoch.covariance.and_then(|covariance| NormalizedSample::new(t_s, &error, &covariance)),
+        estimated_designated_in_site_m: epoch.designated_in_site_m,
         true_site_from_lander: true_pose,
         estimated_site_from_lander: estimated,
     })
@@ -182,7 +184,7 @@ fn add_final_errors(
         }
         None => metrics.note("Without tracks.csv the errors at the last picture cannot be told from those at the end."),
     }
-    add_verdict("converged", "the site's origin", end, &Vector3::zeros(), metrics);
+    add_verdict("converged", "the site's origin", end, None, metrics);
     let ground = match TrueCamera::read(root) {
         Ok(camera) => tracked_ground(tracks, &camera)?,
         Err(error) => {
@@ -196,11 +198,11 @@ fn add_final_errors(
             if let Some(first) = first_in_site_m {
                 metrics.add("tracked_point_drift", (point - first).norm(), "m");
             }
-            add_position_errors("final_from_tracked_point", end, &point, metrics);
+            add_position_errors("final_from_tracked_point", end, Some(&point), metrics);
             if let Some(epoch) = last_seen {
-                add_position_errors("last_picture_from_tracked_point", epoch, &point, metrics);
+                add_position_errors("last_picture_from_tracked_point", epoch, Some(&point), metrics);
             }
-            add_verdict("converged_from_tracked_point", "the ground point really tracked", end, &point, metrics);
+            add_verdict("converged_from_tracked_point", "the ground point really tracked", end, Some(&point), metrics);
         }
         _ => metrics.note(
             "The ground under the last observation of track 0 is unknown (no such track or no true depth): the verdict is \
@@ -210,19 +212,26 @@ fn add_final_errors(
     Ok(())
 }
 
-/// The estimator takes the tracked point for the origin; `origin_in_site_m` is where that point truly is.
-fn position_error_m(error: &LandingError, origin_in_site_m: &Vector3<f64>) -> Vector3<f64> {
-    error.position_m - origin_in_site_m
+/// Error of the position relative to the site's origin, or relative to the ground point of track 0, given where that
+/// point truly is: what counts in a landing is the lander's place above the point that it steers for.
+fn position_error_m(error: &LandingError, tracked_point_in_site_m: Option<&Vector3<f64>>) -> Vector3<f64> {
+    let of_point = |truly: &Vector3<f64>| truly - error.estimated_designated_in_site_m;
+    error.position_m - tracked_point_in_site_m.map_or_else(Vector3::zeros, of_point)
 }
 
-fn add_position_errors(prefix: &str, error: &LandingError, origin_in_site_m: &Vector3<f64>, metrics: &mut Metrics) {
-    let position = position_error_m(error, origin_in_site_m);
+fn add_position_errors(
+    prefix: &str,
+    error: &LandingError,
+    point_in_site_m: Option<&Vector3<f64>>,
+    metrics: &mut Metrics,
+) {
+    let position = position_error_m(error, point_in_site_m);
     metrics.add(&format!("{prefix}_horizontal_error"), position.xy().norm(), "m");
     metrics.add(&format!("{prefix}_z_error"), position.z, "m");
 }
 
 fn add_state_errors(prefix: &str, error: &LandingError, metrics: &mut Metrics) {
-    add_position_errors(prefix, error, &Vector3::zeros(), metrics);
+    add_position_errors(prefix, error, None, metrics);
     metrics.add(&format!("{prefix}_speed_error"), error.velocity_m_s.norm(), "m/s");
     for (axis, name) in ["roll", "pitch", "yaw"].into_iter().enumerate() {
         metrics.add(&format!("{prefix}_{name}_error"), error.roll_pitch_yaw_rad[axis].to_degrees(), "deg");
@@ -230,8 +239,14 @@ fn add_state_errors(prefix: &str, error: &LandingError, metrics: &mut Metrics) {
 }
 
 /// Converged: horizontal < 1 m, z < 40 m, |v| < 0.5 m/s, roll and pitch < 0.1°.
-fn add_verdict(name: &str, origin: &str, error: &LandingError, origin_in_site_m: &Vector3<f64>, metrics: &mut Metrics) {
-    let position = position_error_m(error, origin_in_site_m);
+fn add_verdict(
+    name: &str,
+    origin: &str,
+    error: &LandingError,
+    point_in_site_m: Option<&Vector3<f64>>,
+    metrics: &mut Metrics,
+) {
+    let position = position_error_m(error, point_in_site_m);
     let tilt_deg = error.roll_pitch_yaw_rad.xy().map(|angle| angle.to_degrees().abs());
     let limits = [
         ("horizontal error", position.xy().norm(), 1.0, "m"),

@@ -15,11 +15,16 @@ pub struct LandingEpoch {
     pub site_from_lander: Isometry3<f64>,
     /// Estimated velocity of the lander in the site frame, m/s.
     pub lander_velocity_in_site_m_s: Vector3<f64>,
+    /// Where the estimator believes the ground point of track 0 to lie, site frame, m; the origin where the file does
+    /// not say.
+    pub designated_in_site_m: Vector3<f64>,
     /// The file's 1σ of x, y, z (m), roll, pitch, yaw (rad), vx, vy, vz (m/s); none where it has no such columns.
     pub sigma: Option<SVector<f64, 9>>,
     /// Covariance of (position m, velocity m/s, ψ rad), site axes, `true_site_from_lander = exp(ψ) * estimated`.
     pub covariance: Option<SMatrix<f64, 9, 9>>,
 }
+
+const DESIGNATED: [&str; 3] = ["designated_x_m", "designated_y_m", "designated_z_m"];
 
 /// Reads `estimate.csv` and, if it is there, `covariance.csv` of a landing result.
 pub fn read_landing_epochs(result_folder: &Path) -> Result<Vec<LandingEpoch>, EvaluationError> {
@@ -30,6 +35,7 @@ pub fn read_landing_epochs(result_folder: &Path) -> Result<Vec<LandingEpoch>, Ev
     let sigma_names = ["x_m", "y_m", "z_m", "roll_rad", "pitch_rad", "yaw_rad", "vx_m_s", "vy_m_s", "vz_m_s"]
         .map(|n| format!("sigma_{n}"));
     let sigma = table.places(sigma_names.each_ref().map(String::as_str)).ok();
+    let designated = table.places(DESIGNATED).ok();
     let covariances = read_covariances::<9>(&result_folder.join("covariance.csv"))?;
     let epoch = |(row, t_ns): (usize, &i64)| {
         let p = table.numbers(row, &pose)?;
@@ -39,6 +45,10 @@ pub fn read_landing_epochs(result_folder: &Path) -> Result<Vec<LandingEpoch>, Ev
             t_ns: *t_ns,
             site_from_lander: Isometry3::from_parts(Translation3::new(p[0], p[1], p[2]), rotation),
             lander_velocity_in_site_m_s: Vector3::from(table.numbers(row, &velocity)?),
+            designated_in_site_m: match designated {
+                Some(places) => Vector3::from(table.numbers(row, &places)?),
+                None => Vector3::zeros(),
+            },
             sigma: sigma.map(SVector::from),
             covariance: covariances.get(t_ns).copied(),
         })

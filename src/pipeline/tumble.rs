@@ -7,7 +7,7 @@ use crate::navigation::tumbling::{
     TumblingConfig, TumblingEpoch, TumblingResult, estimate, write_covariance_csv, write_estimate_csv,
 };
 use crate::vision::{FrontEnd, FrontEndConfig, TrackInputs};
-use nalgebra::{Isometry3, Translation3};
+use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -51,6 +51,7 @@ pub fn tumble(request: &TumbleRequest, progress: &dyn Progress) -> Result<Summar
     progress.end();
     summary.timing_ms.insert("estimator".into(), start.elapsed().as_secs_f64() * 1e3);
     describe(&result, &mut summary);
+    summary.notes.extend(front_end.center_in_camera.map(|c| center_note(&c)));
     write_result(&request.out, &sequence, (&front_end, &result))?;
     summary.write(&request.out)?;
     Ok(summary)
@@ -70,6 +71,11 @@ fn write_result(
         reference_from_moving: Isometry3::from_parts(Translation3::identity(), e.asteroid_from_inertial),
     };
     Ok(write_tum(&out.join("trajectory.tum"), &result.epochs.iter().map(pose).collect::<Vec<_>>())?)
+}
+
+fn center_note(center_in_camera: &Unit<Vector3<f64>>) -> String {
+    let c = center_in_camera;
+    format!("centre of rotation in the camera: ({:.6}, {:.6}) of (x/z, y/z)", c.x / c.z, c.y / c.z)
 }
 
 /// Final state with 1σ, counts and notes for the summary.

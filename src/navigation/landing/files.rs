@@ -5,12 +5,13 @@ use crate::dataset::{DatasetError, write_timed_table};
 use std::path::Path;
 
 const ESTIMATE_HEADER: &str = "t_ns,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_s,vy_m_s,vz_m_s,sigma_x_m,sigma_y_m,sigma_z_m,\
-sigma_vx_m_s,sigma_vy_m_s,sigma_vz_m_s,sigma_roll_rad,sigma_pitch_rad,sigma_yaw_rad";
+sigma_vx_m_s,sigma_vy_m_s,sigma_vz_m_s,sigma_roll_rad,sigma_pitch_rad,sigma_yaw_rad,\
+designated_x_m,designated_y_m,designated_z_m";
 
 const ERRORS: [&str; 9] = ["x", "y", "z", "vx", "vy", "vz", "roll", "pitch", "yaw"];
 
 /// Writes `estimate.csv`: pose (`site_from_lander`) and velocity in the site frame, then 1σ of each; roll, pitch and yaw
-/// are small turns about the site's x, y and z axes.
+/// are small turns about the site's x, y and z axes; last, where the designated point is believed to lie.
 ///
 /// # Errors
 /// [`DatasetError::Io`] with the path.
@@ -20,6 +21,7 @@ pub fn write_estimate_csv(path: &Path, result: &LandingResult) -> Result<(), Dat
         let v = epoch.lander_velocity_in_site_m_s;
         let mut row = vec![p.x, p.y, p.z, q.w, q.i, q.j, q.k, v.x, v.y, v.z];
         row.extend(epoch.sigma());
+        row.extend(epoch.designated_in_site_m.iter());
         (epoch.t_ns, row)
     };
     let rows: Vec<(i64, Vec<f64>)> = result.epochs.iter().map(row).collect();

@@ -85,6 +85,9 @@ fn epoch(t_ns: i64, navigator: &Navigator, report: &StepReport, config: &Landing
         site_from_lander: state.site_from_lander(),
         lander_velocity_in_site_m_s: state.lander_velocity_in_site_m_s,
         covariance: config.filter.site_covariance(&navigator.estimate),
+        designated_in_site_m: state
+            .landmark_of(TrackObservation::DESIGNATED)
+            .map_or_else(nalgebra::Vector3::zeros, |index| state.landmarks[index].position_in_site_m),
         normalized_innovation_squared: report.normalized_innovation_squared,
         innovation_dof: 2 * report.used(),
         gated: report.outcomes.len() - report.used(),

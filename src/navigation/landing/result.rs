@@ -14,6 +14,9 @@ pub struct LandingEpoch {
     /// Covariance of the errors, true less estimated: position (m), velocity (m/s) and attitude ψ (rad), all in site
     /// axes, where `true site_from_lander = exp(ψ) * estimated`.
     pub covariance: SMatrix<f64, 9, 9>,
+    /// Where the ground point that track 0 follows is believed to lie, site frame, m: the origin unless the designated
+    /// point's own errors are estimated. The lander's place above that point is known far better than either.
+    pub designated_in_site_m: Vector3<f64>,
     /// Joint normalised innovation squared of the bearings used; `None` if none was.
     pub normalized_innovation_squared: Option<f64>,
     /// Its degrees of freedom.
