@@ -2,7 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 use opnav::pipeline::Progress;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::sync::Mutex;
 
 /// Listener of the pipelines that prints to standard error.
@@ -27,7 +27,8 @@ impl Terminal {
     /// Prints a line of result to standard output, unless quiet.
     pub fn say(&self, line: &str) {
         if !self.quiet {
-            println!("{line}");
+            // A reader that has seen enough, such as `head`, is no error.
+            let _ = writeln!(std::io::stdout(), "{line}");
         }
     }
 

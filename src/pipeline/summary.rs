@@ -13,6 +13,8 @@ pub struct Summary {
     pub mission: &'static str,
     /// Version of opnav.
     pub opnav_version: &'static str,
+    /// Time of the first picture used, ns.
+    pub t0_ns: Option<i64>,
     /// Every option as used.
     pub options: serde_json::Value,
     /// Frames, matches, and whatever else was counted.
@@ -32,6 +34,7 @@ impl Summary {
         Summary {
             mission,
             opnav_version: env!("CARGO_PKG_VERSION"),
+            t0_ns: None,
             options,
             counts: BTreeMap::new(),
             last: serde_json::Value::Null,

@@ -72,6 +72,7 @@ pub(super) fn run_front_end(
     progress.end();
     summary.timing_ms.insert("front_end".into(), start.elapsed().as_secs_f64() * 1e3);
     summary.timing_ms.extend(mean_stage_ms(&front_end));
+    summary.t0_ns = front_end.frames.first().map(|f| f.t_ns);
     let accepted = front_end.rotations.iter().filter(|r| r.status == PairStatus::Ok).count();
     let counts = [
         ("frames", front_end.frames.len()),
@@ -85,16 +86,17 @@ pub(super) fn run_front_end(
 
 /// Mean time a frame of each stage of the front end, ms.
 fn mean_stage_ms(front_end: &FrontEnd) -> Vec<(String, f64)> {
-    let stages: [(&str, fn(&FrameReport) -> f64); 5] = [
-        ("load", |f| f.load_ms),
-        ("detect", |f| f.detect_ms),
-        ("describe", |f| f.describe_ms),
-        ("match", |f| f.match_ms),
-        ("rotation", |f| f.rotation_ms),
-    ];
     let count = front_end.frames.len().max(1) as f64;
-    let mean = |of: fn(&FrameReport) -> f64| front_end.frames.iter().map(of).sum::<f64>() / count;
-    stages.map(|(name, of)| (format!("{name}_per_frame"), mean(of))).to_vec()
+    let mean = |name: &str, of: fn(&FrameReport) -> f64| {
+        (format!("{name}_per_frame"), front_end.frames.iter().map(of).sum::<f64>() / count)
+    };
+    vec![
+        mean("load", |f| f.load_ms),
+        mean("detect", |f| f.detect_ms),
+        mean("describe", |f| f.describe_ms),
+        mean("match", |f| f.match_ms),
+        mean("rotation", |f| f.rotation_ms),
+    ]
 }
 
 /// Writes `tracks.csv`, `relative_rotations.csv` and `attitude_chain.tum`.
