@@ -134,5 +134,5 @@ fn a_prediction_finds_more_matches_and_no_worse_ones() {
         found.iter().filter(|m| (apply(&h, fa[m.from].pixel_px) - fb[m.to].pixel_px).norm() < 2.0).count()
     };
     let (more, fewer) = (right(&guided), right(&free));
-    assert!(more > fewer && more * 10 > guided.len() * 9, "{more} of {} with, {fewer} without", guided.len());
+    assert!(more > fewer && more * 100 > guided.len() * 85, "{more} of {} with, {fewer} without", guided.len());
 }
