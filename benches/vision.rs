@@ -35,7 +35,7 @@ fn front_end(criterion: &mut Criterion) {
     let bits = [(&a, 0), (&b, 1)].map(|(p, i)| describe(p, &features[i], Orientation::Upright).expect("bits"));
     let described = [0, 1].map(|i| Described { features: &features[i], descriptors: &bits[i] });
     let matcher = MatcherConfig::default();
-    let found = match_features(described[0], described[1], &matcher).expect("matches");
+    let found = match_features(described[0], described[1], &matcher);
     let pair = MatchedPair {
         from_px: found.iter().map(|m| features[0][m.from].pixel_px).collect(),
         to_px: found.iter().map(|m| features[1][m.to].pixel_px).collect(),

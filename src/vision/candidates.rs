@@ -116,7 +116,7 @@ pub(super) struct Fits {
 }
 
 /// Matches used to compare starts; the winners are refined on all.
-const SCREENING: usize = 250;
+const SCREENING: usize = 150;
 
 /// A residual beyond this many σ counts no further when rivals are compared.
 const GATE_SIGMA: f64 = 3.0;
@@ -148,7 +148,7 @@ impl Fits {
         starts.retain(|s| small(&s.rotation));
         Fits {
             generals: fit_generals(&starts, sights, widest),
-            planes: planes.into_iter().map(|p| fit(p, sights, widest)).collect(),
+            planes: fit_planes(&planes, sights, widest),
             turn: turns.first().map(|q| fit(Turn(*q), sights, widest)),
         }
     }
@@ -219,6 +219,18 @@ fn is_clearly_worse(squares: &[f64], best: &[f64]) -> bool {
     sum > CLEAR_SIGMA * sum_of_squares.sqrt()
 }
 
+/// Fits the first plane, then its twins: the other decompositions of the same fitted homography.
+fn fit_planes(starts: &[Plane], sights: &[Sight], widest: f64) -> Vec<PairFit<8, Plane>> {
+    let Some(start) = starts.first() else { return Vec::new() };
+    let first = fit(*start, sights, widest);
+    let off = |p: &Plane| so3::log(&(p.rotation * first.model.rotation.inverse())).norm();
+    let twins: Vec<Plane> =
+        usac::planes(&first.model.matrix().0).into_iter().filter(|p| is_visible(p, sights)).collect();
+    let itself = twins.iter().map(off).fold(f64::INFINITY, f64::min);
+    let fitted: Vec<_> = twins.iter().filter(|p| off(p) > itself + 1e-6).map(|p| fit(*p, sights, widest)).collect();
+    std::iter::once(first).chain(fitted).collect()
+}
+
 /// Screens the starts on some matches, then refines the distinct best on all; those behind the camera are dropped.
 fn fit_generals(starts: &[General], sights: &[Sight], widest: f64) -> Vec<PairFit<5, General>> {
     let step = sights.len().div_ceil(SCREENING);
@@ -226,7 +238,7 @@ fn fit_generals(starts: &[General], sights: &[Sight], widest: f64) -> Vec<PairFi
     let loss = Loss::Cauchy(0.5 * widest / 3.0);
     let mut screened: Vec<(f64, General)> = Vec::new();
     for start in starts {
-        let (model, normal) = descend(*start, &few, loss, 10);
+        let (model, normal) = descend(*start, &few, loss, 8);
         let known = |m: &General| so3::log(&(m.rotation * model.rotation.inverse())).norm() < 1e-3;
         if !screened.iter().any(|(_, m)| known(m)) {
             screened.push((normal.cost, model));
@@ -235,7 +247,7 @@ fn fit_generals(starts: &[General], sights: &[Sight], widest: f64) -> Vec<PairFi
     screened.sort_by(|a, b| a.0.total_cmp(&b.0));
     let limit = screened.first().map_or(0.0, |s| 1.3 * s.0 + 10.0);
     let mut fits: Vec<PairFit<5, General>> = Vec::new();
-    for (_, model) in screened.into_iter().filter(|s| s.0 <= limit).take(3) {
+    for (_, model) in screened.into_iter().filter(|s| s.0 <= limit).take(2) {
         let mut refined = fit(model, sights, widest);
         let inside: Vec<Sight> =
             sights.iter().zip(&refined.inliers).filter(|(_, inlier)| **inlier).map(|(s, _)| *s).collect();

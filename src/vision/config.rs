@@ -32,7 +32,7 @@ pub struct DetectorConfig {
     pub min_distance_px: f64,
     /// Features closer to the picture's edge are dropped, px (default 16).
     pub border_px: u32,
-    /// Features with a greater predicted 1σ are dropped, px (default 0.6).
+    /// Features with a greater predicted 1σ are dropped, px (default 0.4).
     pub max_sigma_px: f64,
 }
 
@@ -46,7 +46,7 @@ impl Default for DetectorConfig {
             min_response_ratio: 1e-5,
             min_distance_px: 5.0,
             border_px: 16,
-            max_sigma_px: 0.6,
+            max_sigma_px: 0.4,
         }
     }
 }

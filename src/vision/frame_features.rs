@@ -86,7 +86,7 @@ pub(super) fn match_pair(
     way: Way,
     (camera, predicted): (&Camera, Option<UnitQuaternion<f64>>),
     config: &FrontEndConfig,
-) -> Result<Vec<IndexMatch>, VisionError> {
+) -> Vec<IndexMatch> {
     let orientation = match way {
         Way::Guided if predicted.is_some_and(|q| roll_rad(&q).abs() < 0.2) => Orientation::Upright,
         Way::Upright => Orientation::Upright,
@@ -96,10 +96,10 @@ pub(super) fn match_pair(
     if way != Way::Guided {
         return match_features(a, b, &config.matcher);
     }
-    let Some(rotation) = predicted else { return Ok(Vec::new()) };
+    let Some(rotation) = predicted else { return Vec::new() };
     let predict =
         |pixel: &Vector2<f64>| camera.unproject(pixel).and_then(|ray| camera.project(&(rotation * ray.into_inner())));
-    Ok(match_features_guided(a, b, &predict, &config.matcher))
+    match_features_guided(a, b, &predict, &config.matcher)
 }
 
 /// Turn of the picture about its axis.

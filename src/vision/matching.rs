@@ -1,9 +1,7 @@
 //! Matching of descriptors: mutual best, ratio test (Lowe 2004), and a search radius where a prediction is given.
 
-use super::{Descriptor, Feature, MatcherConfig, VisionError};
+use super::{Descriptor, Feature, MatcherConfig};
 use nalgebra::Vector2;
-use opencv::core::{CV_32S, Mat, NORM_HAMMING, batch_distance, no_array};
-use opencv::prelude::*;
 
 /// Indices of the same surface point among the features of two pictures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,6 +34,7 @@ struct Best {
 impl Best {
     const NONE: Best = Best { index: usize::MAX, best: u32::MAX, second: u32::MAX };
 
+    #[inline(always)]
     fn offer(&mut self, index: usize, distance: u32) {
         if distance < self.best {
             *self = Best { index, best: distance, second: self.best };
@@ -51,26 +50,17 @@ impl Best {
 
 /// Matches two pictures' features anywhere in the picture: each the other's best, both passing the ratio test. In order
 /// of the first picture's index.
-///
-/// # Errors
-/// OpenCV's refusal.
-pub fn match_features(from: Described, to: Described, config: &MatcherConfig) -> Result<Vec<IndexMatch>, VisionError> {
+pub fn match_features(from: Described, to: Described, config: &MatcherConfig) -> Vec<IndexMatch> {
     let present =
         |d: Described| -> Vec<usize> { (0..d.descriptors.len()).filter(|i| d.descriptors[*i].is_some()).collect() };
     let (rows, columns) = (present(from), present(to));
     if rows.is_empty() || columns.is_empty() {
-        return Ok(Vec::new());
+        return Vec::new();
     }
-    let distances = all_distances(&packed(from, &rows), &packed(to, &columns))
-        .map_err(VisionError::opencv("compare descriptors"))?;
-    let distances = distances.data_typed::<i32>().map_err(VisionError::opencv("read distances"))?;
     let mut best = BestOfBoth::new(from.features.len(), to.features.len());
-    for (row, values) in rows.iter().zip(distances.chunks_exact(columns.len())) {
-        for (column, value) in columns.iter().zip(values) {
-            best.offer(*row, *column, *value as u32);
-        }
-    }
-    Ok(best.mutual(config))
+    let (a, b) = (gathered(from, &rows), gathered(to, &columns));
+    compare_all(&a, &b, &mut best);
+    best.mutual(config)
 }
 
 /// As [`match_features`], with candidates only within the search radius of where `predict` puts a pixel of the first
@@ -95,21 +85,39 @@ pub fn match_features_guided(
     best.mutual(config)
 }
 
+#[inline(always)]
 fn hamming(a: &Descriptor, b: &Descriptor) -> u32 {
     a.iter().zip(b).map(|(x, y)| (x ^ y).count_ones()).sum()
 }
 
-fn packed(described: Described, chosen: &[usize]) -> Vec<u8> {
-    let words = chosen.iter().filter_map(|i| described.descriptors[*i]).flatten();
-    words.flat_map(u64::to_le_bytes).collect()
+/// Descriptors with their features' indices.
+fn gathered(described: Described, chosen: &[usize]) -> Vec<(usize, Descriptor)> {
+    chosen.iter().filter_map(|i| described.descriptors[*i].map(|d| (*i, d))).collect()
 }
 
-fn all_distances(from: &[u8], to: &[u8]) -> opencv::Result<Mat> {
-    let a = Mat::new_rows_cols_with_data((from.len() / 32) as i32, 32, from)?;
-    let b = Mat::new_rows_cols_with_data((to.len() / 32) as i32, 32, to)?;
-    let mut distances = Mat::default();
-    batch_distance(&a, &b, &mut distances, CV_32S, &mut no_array(), NORM_HAMMING, 0, &no_array(), 0, false)?;
-    Ok(distances)
+#[inline(always)]
+fn compare(from: &[(usize, Descriptor)], to: &[(usize, Descriptor)], best: &mut BestOfBoth) {
+    for (row, a) in from {
+        for (column, b) in to {
+            best.offer(*row, *column, hamming(a, b));
+        }
+    }
+}
+
+/// Every descriptor against every other, with the processor's bit counter where it has one.
+fn compare_all(from: &[(usize, Descriptor)], to: &[(usize, Descriptor)], best: &mut BestOfBoth) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        #[target_feature(enable = "popcnt")]
+        fn with_popcnt(from: &[(usize, Descriptor)], to: &[(usize, Descriptor)], best: &mut BestOfBoth) {
+            compare(from, to, best);
+        }
+        if is_x86_feature_detected!("popcnt") {
+            // SAFETY: the processor has the instruction that the function is compiled for.
+            return unsafe { with_popcnt(from, to, best) };
+        }
+    }
+    compare(from, to, best);
 }
 
 struct BestOfBoth {
@@ -122,6 +130,7 @@ impl BestOfBoth {
         BestOfBoth { rows: vec![Best::NONE; rows], columns: vec![Best::NONE; columns] }
     }
 
+    #[inline(always)]
     fn offer(&mut self, row: usize, column: usize, distance: u32) {
         self.rows[row].offer(column, distance);
         self.columns[column].offer(row, distance);

@@ -185,7 +185,7 @@ fn choose(
     let best = least(all, off);
     let next = (0..all.len()).filter(|i| *i != best).map(|i| off(&all[i])).fold(f64::INFINITY, f64::min);
     // The ground's slope changes little from picture to picture: the nearer normal must be near, and clearly nearer.
-    let clear = off(&all[best]) < 0.15 && next > 2.0 * off(&all[best]) + 0.05;
+    let clear = off(&all[best]) < 0.15 && next > 2.0 * off(&all[best]) && next > off(&all[best]) + 0.1;
     if clear { Ok(best) } else { Err(PairStatus::Degenerate) }
 }
 

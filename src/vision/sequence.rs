@@ -186,7 +186,7 @@ fn solve_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pai
     let mut best: Option<Pair> = None;
     for way in ways.into_iter().filter(|w| predicted.is_some() || *w != Way::Guided) {
         let start = Instant::now();
-        let matches = match_pair((from, to), way, (job.camera(), predicted), job.config)?;
+        let matches = match_pair((from, to), way, (job.camera(), predicted), job.config);
         let match_ms = milliseconds(start) + best.as_ref().map_or(0.0, |b| b.match_ms);
         let start = Instant::now();
         let pixels = PairPixels::new(&from.features, &to.features, matches.iter().map(|m| (m.from, m.to)));
@@ -228,27 +228,35 @@ fn settle_rivals(job: &Job, chain: &mut Chain) -> Result<Center, VisionError> {
         if let Some(known) = normal.filter(|_| open(pair)) {
             again(pair, known)?;
         }
-        let solved = pair.solution.status == PairStatus::Ok;
-        let here = pair.solution.normal_in_from.or(normal).filter(|_| solved);
-        normal = here.map(|n| pair.solution.camera_to_from_camera_from * n);
+        let here = pair.solution.normal_in_from.or(normal);
+        normal = here.zip(turn_of(pair, job.camera())).map(|(n, turn)| turn * n);
     }
     let mut normal_after: Option<Unit<Vector3<f64>>> = None;
     for pair in chain.pairs.iter_mut().rev() {
-        if let Some(known) = normal_after.filter(|_| open(pair)) {
-            // The normal is wanted in the first camera: the least rotation that the matches allow is near enough.
-            let turn = least_turn(&pair.pixels, job.camera());
-            again(pair, turn.inverse() * known)?;
+        let carried = normal_after.zip(turn_of(pair, job.camera())).map(|(n, turn)| turn.inverse() * n);
+        if let Some(known) = carried.filter(|_| open(pair)) {
+            again(pair, known)?;
         }
-        let solved = pair.solution.status == PairStatus::Ok;
-        normal_after = pair.solution.normal_in_from.filter(|_| solved);
+        normal_after = pair.solution.normal_in_from.or(carried);
     }
     Ok(None)
 }
 
+/// The rotation of a pair for carrying a normal over: the solution where there is one; where rivals are open, the turn
+/// that fits the bearings best, which is near all of them.
+fn turn_of(pair: &Pair, camera: &Camera) -> Option<UnitQuaternion<f64>> {
+    match pair.solution.status {
+        PairStatus::Ok => Some(pair.solution.camera_to_from_camera_from),
+        PairStatus::Degenerate => Some(least_turn(&pair.pixels, &pair.solution.inliers, camera)),
+        _ => None,
+    }
+}
+
 /// The rotation that best carries all matched bearings over, translation ignored (Wahba's problem).
-fn least_turn(pixels: &PairPixels, camera: &Camera) -> UnitQuaternion<f64> {
+fn least_turn(pixels: &PairPixels, inliers: &[bool], camera: &Camera) -> UnitQuaternion<f64> {
     let mut sum = nalgebra::Matrix3::zeros();
-    for (from, to) in pixels.pair.from_px.iter().zip(&pixels.pair.to_px) {
+    let both = pixels.pair.from_px.iter().zip(&pixels.pair.to_px);
+    for ((from, to), _) in both.zip(inliers).filter(|(_, inlier)| **inlier) {
         if let (Some(a), Some(b)) = (camera.unproject(from), camera.unproject(to)) {
             sum += b.into_inner() * a.transpose();
         }

@@ -22,7 +22,7 @@ fn matched(a: &GrayImage, b: &GrayImage, orientation: Orientation) -> (Vec<Featu
     let (da, db) = (describe(a, &fa, orientation).unwrap(), describe(b, &fb, orientation).unwrap());
     let from = Described { features: &fa, descriptors: &da };
     let to = Described { features: &fb, descriptors: &db };
-    let found = match_features(from, to, &MatcherConfig::default()).unwrap();
+    let found = match_features(from, to, &MatcherConfig::default());
     (fa, fb, found)
 }
 
@@ -134,5 +134,5 @@ fn a_prediction_finds_more_matches_and_no_worse_ones() {
         found.iter().filter(|m| (apply(&h, fa[m.from].pixel_px) - fb[m.to].pixel_px).norm() < 2.0).count()
     };
     let (more, fewer) = (right(&guided), right(&free));
-    assert!(more > fewer && more * 10 > guided.len() * 9, "{more} of {} with, {fewer} without", guided.len());
+    assert!(more > fewer && more * 100 > guided.len() * 85, "{more} of {} with, {fewer} without", guided.len());
 }
