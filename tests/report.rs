@@ -1,7 +1,6 @@
 //! Tests of the room `report`.
 
 use image::{GrayImage, Luma};
-use nalgebra::Vector2;
 use opnav::evaluation::{Metrics, Mission, Series, Verdict};
 use opnav::report::*;
 use opnav::stats::{ConsistencyBounds, random_stream};
@@ -146,16 +145,9 @@ fn frame(seed: f64) -> GrayImage {
 }
 
 fn pictures() -> Vec<Picture> {
-    let mark = |k: u32| FeatureMark {
-        pixel_px: Vector2::new(f64::from(k * 97 % 460) + 10.0, f64::from(k * 57 % 340) + 10.0),
-        before_px: Some(Vector2::new(f64::from(k * 97 % 460) + 4.0, f64::from(k * 57 % 340) + 15.0)),
-        kind: MarkKind::Feature,
-    };
     let picture = |t: u32| {
-        let mut marks: Vec<FeatureMark> = (0..60).map(mark).collect();
-        marks.push(FeatureMark { pixel_px: Vector2::new(240.0, 180.0), before_px: None, kind: MarkKind::Designated });
-        let drawn = draw_features(&frame(f64::from(t)), &marks);
-        let caption = format!("Frame at {t} s: tracked features with their motion, and the designated point");
+        let drawn = image::DynamicImage::ImageLuma8(frame(f64::from(t))).to_rgb8();
+        let caption = format!("Frame at {t} s");
         Picture { caption, png: picture_png(&drawn, 640).expect("a PNG") }
     };
     vec![picture(0), picture(60), picture(120)]
@@ -318,22 +310,12 @@ fn a_peak_is_not_lost_in_a_long_series() {
 }
 
 #[test]
-fn features_are_drawn_where_they_are() {
-    let grey = GrayImage::from_pixel(64, 48, Luma([100]));
-    let mark = |u: f64, v: f64, kind| FeatureMark { pixel_px: Vector2::new(u, v), before_px: None, kind };
-    let drawn = draw_features(&grey, &[mark(20.0, 10.0, MarkKind::Feature), mark(50.0, 40.0, MarkKind::Designated)]);
-    let changed: Vec<(u32, u32)> =
-        drawn.enumerate_pixels().filter(|(_, _, p)| p.0 != [100; 3]).map(|(x, y, _)| (x, y)).collect();
-    assert!(!changed.is_empty());
-    for (x, y) in changed {
-        let near = |u: f64, v: f64, r: f64| (f64::from(x) - u).hypot(f64::from(y) - v) < r;
-        assert!(near(20.0, 10.0, 4.5) || near(50.0, 40.0, 10.5), "({x}, {y})");
-    }
-    assert_eq!(drawn.get_pixel(20, 10).0, [100; 3], "the feature itself stays visible");
-    let off = draw_features(&grey, &[mark(-100.0, 1e6, MarkKind::Feature)]);
-    assert_eq!(off.dimensions(), (64, 48));
-    let small = image::load_from_memory(&picture_png(&drawn, 32).expect("a PNG")).expect("it decodes");
+fn wide_pictures_are_shrunk_for_the_page() {
+    let wide = image::RgbImage::from_pixel(64, 48, image::Rgb([100, 90, 80]));
+    let small = image::load_from_memory(&picture_png(&wide, 32).expect("a PNG")).expect("it decodes");
     assert_eq!((small.width(), small.height()), (32, 24));
+    let same = image::load_from_memory(&picture_png(&wide, 100).expect("a PNG")).expect("it decodes");
+    assert_eq!((same.width(), same.height()), (64, 48));
 }
 
 #[test]

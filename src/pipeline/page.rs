@@ -2,7 +2,7 @@
 
 use super::{PipelineError, diagnose};
 use crate::dataset::DatasetError;
-use crate::report::{Page, Picture, Section, environment_table, result_section, write_report};
+use crate::report::{Page, Picture, Section, environment_table, picture_png, result_section, write_report};
 use std::path::{Path, PathBuf};
 
 /// Writes one self-contained HTML page about evaluated result folders.
@@ -27,6 +27,9 @@ pub fn write_page(results: &[PathBuf], out: &Path) -> Result<(), PipelineError> 
     Ok(write_report(&page, out)?)
 }
 
+/// Width of the pictures on the page, px.
+const PICTURE_WIDTH_PX: u32 = 480;
+
 /// The pictures of `overlays/` in order of time.
 fn overlay_pictures(result: &Path) -> Result<Vec<Picture>, PipelineError> {
     let folder = result.join("overlays");
@@ -43,8 +46,9 @@ fn overlay_pictures(result: &Path) -> Result<Vec<Picture>, PipelineError> {
         .collect();
     files.sort();
     let picture = |(t_ns, path): &(i64, PathBuf)| {
-        let png = std::fs::read(path).map_err(DatasetError::io("read", path))?;
-        Ok(Picture { caption: format!("t = {:.1} s", *t_ns as f64 * 1e-9), png })
+        let unusable = |e: image::ImageError| DatasetError::Unusable { path: path.into(), problem: e.to_string() };
+        let png = picture_png(&image::open(path).map_err(unusable)?.to_rgb8(), PICTURE_WIDTH_PX)?;
+        Ok::<_, PipelineError>(Picture { caption: format!("t = {:.1} s", *t_ns as f64 * 1e-9), png })
     };
     files.iter().map(picture).collect()
 }

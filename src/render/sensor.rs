@@ -25,7 +25,7 @@ pub fn expose(frame: &RenderedFrame, sensor: &SensorConfig, seed: u64, t_ns: i64
         if sensor.psf_sigma_px > 0.0 { gaussian_blur_f32(&radiance, sensor.psf_sigma_px as f32) } else { radiance };
     let mut random = random_stream(seed, "sensor", t_ns as u64);
     let read_noise = Normal::new(0.0, sensor.read_noise_electrons.max(0.0)).expect("a finite standard deviation");
-    let levels = 2.0_f64.powi(sensor.bits.clamp(1, 16) as i32) - 1.0;
+    let levels = 2.0_f64.powi(sensor.bits.clamp(1, 8) as i32) - 1.0;
     let to_byte = 255.0 / levels;
     let bytes = blurred.pixels().map(|pixel| {
         let mean = (f64::from(pixel[0]) * gain).max(0.0);

@@ -25,7 +25,7 @@ pub struct SensorConfig {
     pub full_well_electrons: f64,
     /// R.m.s. read noise in electrons (default 10).
     pub read_noise_electrons: f64,
-    /// Bits a pixel, 1 to 16 (default 8).
+    /// Bits a pixel, 1 to 8 (default 8).
     pub bits: u32,
     /// How the exposure is chosen (default `auto`).
     pub exposure: Exposure,
@@ -56,7 +56,7 @@ impl SensorConfig {
     pub fn validate(&self) -> Result<(), SceneError> {
         limits::positive("full_well_electrons", self.full_well_electrons)?;
         limits::within("read_noise_electrons", self.read_noise_electrons, 0.0, 1e6)?;
-        limits::count("bits", self.bits as usize, 1, 16)?;
+        limits::count("bits", self.bits as usize, 1, 8)?;
         limits::within("psf_sigma_px", self.psf_sigma_px, 0.0, 10.0)?;
         match self.exposure {
             Exposure::Auto => Ok(()),
