@@ -44,20 +44,30 @@ fn first_seed() -> u64 {
     1
 }
 
+/// What a TOML error says, in one line, with its line and key.
+fn one_line(error: &toml::de::Error, text: &str) -> String {
+    let whole = error.to_string();
+    let key = whole.lines().rev().find(|line| line.starts_with("in `")).map(|line| format!(" ({line})"));
+    let line = error.span().and_then(|span| text.get(..span.start)).map(|before| before.lines().count().max(1));
+    let starts_line = error.span().is_some_and(|span| text[..span.start.min(text.len())].ends_with('\n'));
+    let place = line.map(|n| format!("line {}: ", n + usize::from(starts_line))).unwrap_or_default();
+    format!("{place}{}{}", error.message().replace('\n', " "), key.unwrap_or_default())
+}
+
 impl ScenarioFile {
     /// Reads the text alone first, so that its own faults are told with their line, then applies the overrides.
     pub fn parse(text: &str, path: &Path, overrides: &[String]) -> Result<Self, SceneError> {
         let unusable = |problem: String| SceneError::Unusable { path: path.into(), problem };
-        let file: ScenarioFile = toml::from_str(text).map_err(|e| unusable(e.to_string().trim_end().into()))?;
+        let file: ScenarioFile = toml::from_str(text).map_err(|e| unusable(one_line(&e, text)))?;
         if overrides.is_empty() {
             return Ok(file);
         }
-        let mut table: Table = toml::from_str(text).map_err(|e| unusable(e.to_string().trim_end().into()))?;
+        let mut table: Table = toml::from_str(text).map_err(|e| unusable(one_line(&e, text)))?;
         for line in overrides {
             set(&mut table, line).map_err(unusable)?;
         }
         let with = overrides.join(" ");
-        table.try_into().map_err(|e| unusable(format!("with {with}: {}", e.to_string().trim_end())))
+        table.try_into().map_err(|e| unusable(format!("with {with}: {}", one_line(&e, ""))))
     }
 
     /// Fills in what depends on the mission.

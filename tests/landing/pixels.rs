@@ -240,7 +240,7 @@ fn result_files_hold_every_epoch() {
     let (estimate, covariance) = (folder.path().join("estimate.csv"), folder.path().join("covariance.csv"));
     write_estimate_csv(&estimate, &result).expect("written");
     write_covariance_csv(&covariance, &result).expect("written");
-    let estimate = read_timed_table(&estimate, 19).expect("readable");
+    let estimate = read_timed_table(&estimate, 22).expect("readable");
     let covariance = read_timed_table(&covariance, 45).expect("readable");
     assert_eq!(estimate.rows.len(), result.epochs.len());
     assert_eq!(estimate.columns[10], "sigma_x_m");
