@@ -169,3 +169,45 @@ fn a_resumed_data_set_has_the_same_bytes() {
     let other = SynthesizeRequest { overrides: vec!["seed=9".into()], ..request("broken", true) };
     assert!(synthesize(&other, &Silent).is_err(), "another scenario was mixed into the data set");
 }
+
+/// Final errors of both missions from pixels over several seeds, as a table.
+#[test]
+#[ignore = "minutes: renders and navigates ten sequences"]
+fn accuracy_from_pixels() {
+    println!("mission   seed | figures, at the last picture (landing) or over the arc (tumbling)");
+    for seed in 1..=5 {
+        let folder = TempDir::new().expect("a temporary folder");
+        let images = dataset("mars_descent_small.toml", seed, folder.path());
+        let result = folder.path().join("landing");
+        navigate_descent(&images, &result);
+        let m = evaluate_result(&result, &images).expect("the result is evaluated");
+        println!(
+            "landing   {seed:4} | above the tracked point: horizontal {:.3} m, z {:+.3} m; speed {:.4} m/s; roll {:+.4}°, pitch \
+             {:+.4}°; from the site's origin {:.2} m; NEES/9 {:.2}; pair rotation median {:.4}°, 95 % {:.3}°",
+            value(&m, "last_picture_from_tracked_point_horizontal_error"),
+            value(&m, "last_picture_from_tracked_point_z_error"),
+            value(&m, "last_picture_speed_error"),
+            value(&m, "last_picture_roll_error"),
+            value(&m, "last_picture_pitch_error"),
+            value(&m, "last_picture_horizontal_error"),
+            value(&m, "nees_per_dof_mean"),
+            value(&m, "pair_rotation_error_median"),
+            value(&m, "pair_rotation_error_p95"),
+        );
+        let folder = TempDir::new().expect("a temporary folder");
+        let images = dataset("tumbling_small.toml", seed, folder.path());
+        let result = folder.path().join("tumbling");
+        estimate_tumbling(&images, &result);
+        let m = evaluate_result(&result, &images).expect("the result is evaluated");
+        println!(
+            "tumbling  {seed:4} | r.m.s. attitude {:.3}°, rate {:.4} °/s; worst inertia ratio {:.4}; NEES/6 {:.1}; pair rotation \
+             median {:.3}°, 95 % {:.3}°",
+            value(&m, "attitude_error_rms"),
+            value(&m, "rate_error_rms"),
+            value(&m, "worst_inertia_error"),
+            value(&m, "nees_per_dof_mean"),
+            value(&m, "pair_rotation_error_median"),
+            value(&m, "pair_rotation_error_p95"),
+        );
+    }
+}

@@ -19,6 +19,12 @@ pub struct Arguments {
     /// The filter: the consistent one, or the paper's standard error-state one.
     #[arg(long, value_enum, default_value = "hybrid")]
     filter: FilterName,
+    /// How many unknown landmarks are followed at a time.
+    #[arg(long, value_name = "N", default_value = "3")]
+    landmarks: usize,
+    /// Observations after which an unknown landmark may be replaced.
+    #[arg(long, value_name = "N", default_value = "8")]
+    reselect_after: usize,
     /// Gravity of the planet in m/s².
     #[arg(long, value_name = "M_S2", default_value = "3.711")]
     gravity: f64,
@@ -72,6 +78,8 @@ pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineErr
     let config = LandingConfig {
         selector: arguments.selector.into(),
         filter: arguments.filter.into(),
+        unknown_landmarks: arguments.landmarks,
+        reselect_after: arguments.reselect_after,
         gravity_m_s2: arguments.gravity,
         seed: arguments.seed,
         ..LandingConfig::from_pixels()

@@ -13,8 +13,9 @@ pub fn write_page(results: &[PathBuf], out: &Path) -> Result<(), PipelineError> 
     let mut sections = Vec::new();
     for result in results {
         let mut section = result_section(result, overlay_pictures(result)?)?;
-        if let Some(name) = result.file_name().filter(|_| results.len() > 1) {
-            section.heading = format!("{} ({})", section.heading, name.to_string_lossy());
+        let name = result.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        if !section.heading.to_lowercase().contains(&name.to_lowercase()) {
+            section.heading = format!("{} ({name})", section.heading);
         }
         sections.push(section);
     }

@@ -22,7 +22,7 @@ pub struct SynthesizeRequest {
     pub out: PathBuf,
     /// `key=value` changes to the scenario, dotted keys.
     pub overrides: Vec<String>,
-    /// Frames to make; all if `None`.
+    /// Frames to make beside those that are there already; all if `None`.
     pub frames: Option<Range<usize>>,
     /// Continue an interrupted job.
     pub resume: bool,
@@ -43,15 +43,16 @@ pub fn synthesize(request: &SynthesizeRequest, progress: &dyn Progress) -> Resul
     let scene = scenario.build(request.scenario.parent().unwrap_or(Path::new(".")))?;
     let parts = SceneParts::of(&scene);
     let range = checked_range(request.frames.clone(), parts.views.len())?;
-    let views = &parts.views[range];
+    let wanted = |(index, view): &(usize, &View)| range.contains(index) || is_finished(&request.out, view);
+    let views: Vec<View> = parts.views.iter().enumerate().filter(wanted).map(|(_, view)| *view).collect();
     let gpu = Gpu::new(request.adapter.as_deref())?;
     prepare_folder(request, &scenario)?;
-    write_static_files(&request.out, &scene, &parts, views)?;
+    write_static_files(&request.out, &scene, &parts, &views)?;
     let mut renderer = Renderer::new(&gpu, parts.world, &parts.sensor.camera, &RenderConfig::default())?;
     progress.begin("rendering", views.len());
-    render_and_write(&mut renderer, &parts, views, (&request.out, scenario.seed, progress))?;
+    render_and_write(&mut renderer, &parts, &views, (&request.out, scenario.seed, progress))?;
     progress.end();
-    write_observations(&request.out, &scene, &parts, views)?;
+    write_observations(&request.out, &scene, &parts, &views)?;
     write_manifest(&request.out, gpu.adapter_name(), views.len(), &["cam0"])?;
     Ok(views.len())
 }
@@ -140,6 +141,11 @@ fn frame_paths(out: &Path, t_ns: i64) -> [PathBuf; 3] {
     ]
 }
 
+/// Whether a picture and its truth are there; files appear whole or not at all.
+fn is_finished(out: &Path, view: &View) -> bool {
+    frame_paths(out, view.t_ns).iter().all(|path| path.exists())
+}
+
 /// Draws on this thread and writes on another; frames that are already whole are left alone.
 fn render_and_write(
     renderer: &mut Renderer,
@@ -152,7 +158,7 @@ fn render_and_write(
         let writer = scope.spawn(move || write_frames(out, receiver));
         let mut outcome = Ok(());
         for (done, view) in views.iter().enumerate() {
-            if !frame_paths(out, view.t_ns).iter().all(|path| path.exists()) {
+            if !is_finished(out, view) {
                 let frame = renderer.render(view).map(|truth| {
                     let picture = expose(&truth, parts.sensor_model, seed, view.t_ns);
                     FinishedFrame { t_ns: view.t_ns, picture, truth }

@@ -17,7 +17,9 @@ pub fn result_section(result_folder: &Path, pictures: Vec<Picture>) -> Result<Se
         Mission::Landing => (
             "Landing",
             "A lander finds its position, velocity and attitude above the designated point from an inertial unit and one \
-             camera. Every error below is the truth less the estimate.",
+             camera. Every error below is the truth less the estimate. The site's origin is known only through the pixel \
+             that designates it in the first picture; what counts for a landing is the place above the ground point that \
+             is really tracked from there.",
         ),
         Mission::Tumbling => (
             "Tumbling body",

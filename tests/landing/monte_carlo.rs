@@ -133,10 +133,10 @@ fn uncorrelated_landmark_prior_is_inconsistent() {
     assert!(overall_nees(&fly_all(&case, 30)) > 10.0);
 }
 
-/// Prints the reference table: `cargo test --test main print_reference_table -- --ignored --nocapture`.
+/// Prints the reference table: `cargo test --test main accuracy_of_simulated_bearings -- --ignored --nocapture`.
 #[test]
 #[ignore = "prints a table of 300 runs a row"]
-fn print_reference_table() {
+fn accuracy_of_simulated_bearings() {
     let hybrid = |selector| Case { selector, ..REFERENCE };
     let cases = [
         ("hybrid, depth error", REFERENCE),

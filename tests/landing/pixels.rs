@@ -299,10 +299,10 @@ fn wrong_options_are_named() {
     assert!(toml::from_str::<LandingConfig>("selektor = \"svd\"").is_err());
 }
 
-/// Prints errors from pixels: `cargo test --test main print_pixel_table -- --ignored --nocapture`.
+/// Prints errors from pixels: `cargo test --test main accuracy_of_simulated_flights -- --ignored --nocapture`.
 #[test]
 #[ignore = "prints a table of 40 flights a row"]
-fn print_pixel_table() {
+fn accuracy_of_simulated_flights() {
     let flights: Vec<_> = (0..40u64).into_par_iter().map(|run| fly(&FLIGHT, run)).collect();
     println!("rms at the last image | horizontal m | z m | v m/s | tilt ° | NEES");
     for (selector, unknown_landmarks, reselect_after) in [
