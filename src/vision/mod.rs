@@ -6,6 +6,8 @@
 //! [`RelativeRotation`]) and their files are free of OpenCV and are compiled without the `vision` feature too.
 
 #[cfg(feature = "vision")]
+mod adjacent_pair;
+#[cfg(feature = "vision")]
 mod candidates;
 #[cfg(feature = "vision")]
 mod center_start;
@@ -47,6 +49,8 @@ mod plausible;
 #[cfg(feature = "vision")]
 mod relative_rotation;
 mod result;
+#[cfg(feature = "vision")]
+mod rivals;
 mod rotations_file;
 #[cfg(feature = "vision")]
 mod sequence;

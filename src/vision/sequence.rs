@@ -1,45 +1,24 @@
 //! The front end over a whole sequence.
 
+use super::adjacent_pair::{Pair, solve_sharp_pair};
 use super::designated::carry_designated;
 use super::fixed_center::{CenterProblem, CenteredPair, rotations_about_center};
-use super::frame_features::{FrameFeatures, PairPixels, Way, match_pair, milliseconds};
+use super::frame_features::FrameFeatures;
 use super::front_end::{FrontEnd, RotationPrediction, TrackInputs};
 use super::keyframes::keyframe_rotations;
-use super::matching::IndexMatch;
-use super::sharpen::{Link, sharpen};
+use super::rivals::settle_rivals;
 use super::tracks::Tracks;
 use super::{
-    FrontEndConfig, FrontEndMode, PairHints, PairSolution, PairStatus, RelativeRotation, RotationModel,
-    TrackObservation, VisionError, relative_rotation,
+    FrontEndConfig, FrontEndMode, PairSolution, PairStatus, RelativeRotation, RotationModel, TrackObservation,
+    VisionError,
 };
 use crate::dataset::{Frame, ImageSequence};
 use crate::geometry::Camera;
 use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector2, Vector3};
 use rayon::prelude::*;
-use std::time::Instant;
 
 /// Pictures held in memory at a time.
 const CHUNK: usize = 8;
-
-/// An adjacent pair: its matches and what they say.
-pub(super) struct Pair {
-    pub(super) matches: Vec<IndexMatch>,
-    pub(super) pixels: PairPixels,
-    pub(super) solution: PairSolution,
-    links: Vec<Option<Link>>,
-    match_ms: f64,
-    rotation_ms: f64,
-}
-
-impl Pair {
-    /// Matches that may extend tracks, with their links.
-    pub(super) fn verified(&self) -> impl Iterator<Item = (IndexMatch, Option<Link>)> + '_ {
-        let usable = matches!(self.solution.status, PairStatus::Ok | PairStatus::NoMotion | PairStatus::Degenerate);
-        let links = self.links.iter().copied().chain(std::iter::repeat(None));
-        let agreeing = self.matches.iter().zip(links).zip(&self.solution.inliers);
-        agreeing.filter(move |(_, inlier)| usable && **inlier).map(|((m, link), _)| (*m, link))
-    }
-}
 
 /// Everything about the pictures and adjacent pairs of a sequence.
 pub(super) struct Chain {
@@ -145,123 +124,6 @@ fn link(job: &Job, chosen: &[&Frame], progress: &(dyn Fn(usize) + Sync)) -> Resu
         (report.matches, report.match_ms, report.rotation_ms) = (pair.matches.len(), pair.match_ms, pair.rotation_ms);
     }
     Ok(chain)
-}
-
-/// Solves a pair, sharpens the matches that agree, and solves it again with them.
-fn solve_sharp_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pair, VisionError> {
-    let mut pair = solve_pair(job, from, to)?;
-    if pair.solution.inlier_count() == 0 {
-        return Ok(pair);
-    }
-    let start = Instant::now();
-    pair.links = sharpen((&from.picture, &to.picture), &pair.pixels, &pair.solution.inliers);
-    pair.match_ms += milliseconds(start);
-    let start = Instant::now();
-    let pixels = pair.pixels.sharpened(&pair.links);
-    let predicted = job.predicted(from.report.t_ns, to.report.t_ns);
-    let solution = first_solution(job, &pixels, predicted)?;
-    if solution.status == PairStatus::Ok || pair.solution.status != PairStatus::Ok {
-        (pair.pixels, pair.solution) = (pixels, solution);
-    }
-    pair.rotation_ms += milliseconds(start);
-    Ok(pair)
-}
-
-/// Matches a pair in one way after another until the motion is clear; the best attempt otherwise.
-fn solve_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pair, VisionError> {
-    let predicted = job.predicted(from.report.t_ns, to.report.t_ns);
-    let fewest = job.config.rotation.min_matches;
-    if from.features.len() < fewest || to.features.len() < fewest {
-        let solution = PairSolution::failed(PairStatus::NoFeatures, 0);
-        return Ok(Pair {
-            matches: vec![],
-            pixels: PairPixels::default(),
-            solution,
-            links: vec![],
-            match_ms: 0.0,
-            rotation_ms: 0.0,
-        });
-    }
-    let ways = [Way::Guided, Way::Upright, Way::Turned];
-    let mut best: Option<Pair> = None;
-    for way in ways.into_iter().filter(|w| predicted.is_some() || *w != Way::Guided) {
-        let start = Instant::now();
-        let matches = match_pair((from, to), way, (job.camera(), predicted), job.config);
-        let match_ms = milliseconds(start) + best.as_ref().map_or(0.0, |b| b.match_ms);
-        let start = Instant::now();
-        let pixels = PairPixels::new(&from.features, &to.features, matches.iter().map(|m| (m.from, m.to)));
-        let solution = first_solution(job, &pixels, predicted)?;
-        let rotation_ms = milliseconds(start) + best.as_ref().map_or(0.0, |b| b.rotation_ms);
-        let clear = matches!(solution.status, PairStatus::Ok | PairStatus::NoMotion | PairStatus::Degenerate)
-            && solution.inlier_count() >= 3 * fewest;
-        let better = best.as_ref().is_none_or(|b| solution.inlier_count() > b.solution.inlier_count());
-        if better {
-            best = Some(Pair { matches, pixels, solution, links: vec![], match_ms, rotation_ms });
-        }
-        if clear {
-            break;
-        }
-    }
-    Ok(best.expect("at least one way is tried"))
-}
-
-fn first_solution(
-    job: &Job,
-    pixels: &PairPixels,
-    predicted: Option<UnitQuaternion<f64>>,
-) -> Result<PairSolution, VisionError> {
-    let hints = PairHints { camera_to_from_camera_from: predicted, normal_in_from: None };
-    relative_rotation(pixels.view(), job.camera(), &hints, &job.config.rotation)
-}
-
-/// Pairs with two rival solutions are solved again with the ground's normal as their neighbours found it: first as the
-/// pair before did, then, for those that come before the first clear one, as the pair after did.
-fn settle_rivals(job: &Job, chain: &mut Chain) -> Result<Center, VisionError> {
-    let again = |pair: &mut Pair, normal: Unit<Vector3<f64>>| -> Result<(), VisionError> {
-        let hints = PairHints { camera_to_from_camera_from: None, normal_in_from: Some(normal) };
-        pair.solution = relative_rotation(pair.pixels.view(), job.camera(), &hints, &job.config.rotation)?;
-        Ok(())
-    };
-    let open = |pair: &Pair| pair.solution.status == PairStatus::Degenerate && job.prior.is_none();
-    let mut normal: Option<Unit<Vector3<f64>>> = None;
-    for pair in &mut chain.pairs {
-        if let Some(known) = normal.filter(|_| open(pair)) {
-            again(pair, known)?;
-        }
-        let here = pair.solution.normal_in_from.or(normal);
-        normal = here.zip(turn_of(pair, job.camera())).map(|(n, turn)| turn * n);
-    }
-    let mut normal_after: Option<Unit<Vector3<f64>>> = None;
-    for pair in chain.pairs.iter_mut().rev() {
-        let carried = normal_after.zip(turn_of(pair, job.camera())).map(|(n, turn)| turn.inverse() * n);
-        if let Some(known) = carried.filter(|_| open(pair)) {
-            again(pair, known)?;
-        }
-        normal_after = pair.solution.normal_in_from.or(carried);
-    }
-    Ok(None)
-}
-
-/// The rotation of a pair for carrying a normal over: the solution where there is one; where rivals are open, the turn
-/// that fits the bearings best, which is near all of them.
-fn turn_of(pair: &Pair, camera: &Camera) -> Option<UnitQuaternion<f64>> {
-    match pair.solution.status {
-        PairStatus::Ok => Some(pair.solution.camera_to_from_camera_from),
-        PairStatus::Degenerate => Some(least_turn(&pair.pixels, &pair.solution.inliers, camera)),
-        _ => None,
-    }
-}
-
-/// The rotation that best carries all matched bearings over, translation ignored (Wahba's problem).
-fn least_turn(pixels: &PairPixels, inliers: &[bool], camera: &Camera) -> UnitQuaternion<f64> {
-    let mut sum = nalgebra::Matrix3::zeros();
-    let both = pixels.pair.from_px.iter().zip(&pixels.pair.to_px);
-    for ((from, to), _) in both.zip(inliers).filter(|(_, inlier)| **inlier) {
-        if let (Some(a), Some(b)) = (camera.unproject(from), camera.unproject(to)) {
-            sum += b.into_inner() * a.transpose();
-        }
-    }
-    UnitQuaternion::from_matrix(&sum)
 }
 
 fn solve_about_center(job: &Job, chain: &mut Chain) -> Center {

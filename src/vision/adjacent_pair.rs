@@ -1,0 +1,95 @@
+//! One pair of adjacent pictures: matched, solved, sharpened, solved again.
+
+use super::frame_features::{FrameFeatures, PairPixels, Way, match_pair, milliseconds};
+use super::matching::IndexMatch;
+use super::sequence::Job;
+use super::sharpen::{Link, sharpen};
+use super::{PairHints, PairSolution, PairStatus, VisionError, relative_rotation};
+use nalgebra::UnitQuaternion;
+use std::time::Instant;
+
+/// An adjacent pair: its matches and what they say.
+pub(super) struct Pair {
+    pub(super) matches: Vec<IndexMatch>,
+    pub(super) pixels: PairPixels,
+    pub(super) solution: PairSolution,
+    links: Vec<Option<Link>>,
+    pub(super) match_ms: f64,
+    pub(super) rotation_ms: f64,
+}
+
+impl Pair {
+    /// Matches that may extend tracks, with their links.
+    pub(super) fn verified(&self) -> impl Iterator<Item = (IndexMatch, Option<Link>)> + '_ {
+        let usable = matches!(self.solution.status, PairStatus::Ok | PairStatus::NoMotion | PairStatus::Degenerate);
+        let links = self.links.iter().copied().chain(std::iter::repeat(None));
+        let agreeing = self.matches.iter().zip(links).zip(&self.solution.inliers);
+        agreeing.filter(move |(_, inlier)| usable && **inlier).map(|((m, link), _)| (*m, link))
+    }
+}
+/// Solves a pair, sharpens the matches that agree, and solves it again with them.
+pub(super) fn solve_sharp_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pair, VisionError> {
+    let mut pair = solve_pair(job, from, to)?;
+    if pair.solution.inlier_count() == 0 {
+        return Ok(pair);
+    }
+    let start = Instant::now();
+    pair.links = sharpen((&from.picture, &to.picture), &pair.pixels, &pair.solution.inliers);
+    pair.match_ms += milliseconds(start);
+    let start = Instant::now();
+    let pixels = pair.pixels.sharpened(&pair.links);
+    let predicted = job.predicted(from.report.t_ns, to.report.t_ns);
+    let solution = first_solution(job, &pixels, predicted)?;
+    if solution.status == PairStatus::Ok || pair.solution.status != PairStatus::Ok {
+        (pair.pixels, pair.solution) = (pixels, solution);
+    }
+    pair.rotation_ms += milliseconds(start);
+    Ok(pair)
+}
+
+/// Matches a pair in one way after another until the motion is clear; the best attempt otherwise.
+fn solve_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pair, VisionError> {
+    let predicted = job.predicted(from.report.t_ns, to.report.t_ns);
+    let fewest = job.config.rotation.min_matches;
+    if from.features.len() < fewest || to.features.len() < fewest {
+        let solution = PairSolution::failed(PairStatus::NoFeatures, 0);
+        return Ok(Pair {
+            matches: vec![],
+            pixels: PairPixels::default(),
+            solution,
+            links: vec![],
+            match_ms: 0.0,
+            rotation_ms: 0.0,
+        });
+    }
+    let ways = [Way::Guided, Way::Upright, Way::Turned];
+    let mut best: Option<Pair> = None;
+    for way in ways.into_iter().filter(|w| predicted.is_some() || *w != Way::Guided) {
+        let start = Instant::now();
+        let matches = match_pair((from, to), way, (job.camera(), predicted), job.config);
+        let match_ms = milliseconds(start) + best.as_ref().map_or(0.0, |b| b.match_ms);
+        let start = Instant::now();
+        let pixels = PairPixels::new(&from.features, &to.features, matches.iter().map(|m| (m.from, m.to)));
+        let solution = first_solution(job, &pixels, predicted)?;
+        let rotation_ms = milliseconds(start) + best.as_ref().map_or(0.0, |b| b.rotation_ms);
+        let clear = matches!(solution.status, PairStatus::Ok | PairStatus::NoMotion | PairStatus::Degenerate)
+            && solution.inlier_count() >= 3 * fewest;
+        let better = best.as_ref().is_none_or(|b| solution.inlier_count() > b.solution.inlier_count());
+        if better {
+            best = Some(Pair { matches, pixels, solution, links: vec![], match_ms, rotation_ms });
+        }
+        if clear {
+            break;
+        }
+    }
+    Ok(best.expect("at least one way is tried"))
+}
+
+fn first_solution(
+    job: &Job,
+    pixels: &PairPixels,
+    predicted: Option<UnitQuaternion<f64>>,
+) -> Result<PairSolution, VisionError> {
+    let hints = PairHints { camera_to_from_camera_from: predicted, normal_in_from: None };
+    relative_rotation(pixels.view(), job.camera(), &hints, &job.config.rotation)
+}
