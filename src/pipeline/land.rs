@@ -35,10 +35,11 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
     let (imu_noise, imu) = read_imu(&sequence.root)?;
     let designated = read_designated(&sequence.root)?;
     let initial = read_initial_state(&sequence.root)?;
+    let front_end_config = with_gyro_prior(&request.front_end);
     let options = serde_json::json!({
         "folder": request.folder.display().to_string(),
         "filter": request.config,
-        "front_end": request.front_end,
+        "front_end": front_end_config,
     });
     let mut summary = Summary::new("landing", options);
     let lander_from_camera = sequence.sensor.spacecraft_from_camera;
@@ -54,7 +55,7 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
         rotation_prior: Some(&prior),
         designated: Some(designated),
     };
-    let front_end = run_front_end(&sequence, &request.front_end, &inputs, (progress, &mut summary))?;
+    let front_end = run_front_end(&sequence, &front_end_config, &inputs, (progress, &mut summary))?;
     let input = LandingInput {
         imu: imu.clone(),
         imu_noise,
@@ -74,6 +75,16 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
     write_result(&request.out, &sequence, (&front_end, &result))?;
     summary.write(&request.out)?;
     Ok(summary)
+}
+
+/// 1σ of a rotation that the gyroscope predicts between two pictures, rad: its noise over seconds, and a margin for the
+/// camera's mounting. Tight enough to tell the right one of two rotations that explain a plane equally well.
+const GYRO_SIGMA_RAD: f64 = 1e-3;
+
+fn with_gyro_prior(front_end: &FrontEndConfig) -> FrontEndConfig {
+    let mut config = front_end.clone();
+    config.rotation.prior_sigma_rad = config.rotation.prior_sigma_rad.min(GYRO_SIGMA_RAD);
+    config
 }
 
 /// The filter's options with what the front end says of the designated point: 1σ of the pixel that names it, and of each
