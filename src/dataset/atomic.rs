@@ -4,6 +4,25 @@ use super::DatasetError;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
+/// How the names of unfinished files begin.
+const PARTIAL: &str = ".partial-";
+
+/// Removes the unfinished files that a killed job left under `root`.
+///
+/// # Errors
+/// [`DatasetError::Io`] with the path.
+pub fn remove_partial_files(root: &Path) -> Result<(), DatasetError> {
+    for entry in std::fs::read_dir(root).map_err(DatasetError::io("list", root))? {
+        let path = entry.map_err(DatasetError::io("list", root))?.path();
+        if path.is_dir() {
+            remove_partial_files(&path)?;
+        } else if path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(PARTIAL)) {
+            std::fs::remove_file(&path).map_err(DatasetError::io("remove", &path))?;
+        }
+    }
+    Ok(())
+}
+
 /// Writes a file through `fill`; on any error the destination keeps what it had. Missing parent folders are made.
 ///
 /// # Errors
@@ -15,7 +34,7 @@ pub fn write_atomically(
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     std::fs::create_dir_all(folder).map_err(DatasetError::io("make the folder", folder))?;
     let mut file = tempfile::Builder::new()
-        .prefix(".partial-")
+        .prefix(PARTIAL)
         .tempfile_in(folder)
         .map_err(DatasetError::io("make a temporary file in", folder))?;
     let write = |file: &mut tempfile::NamedTempFile| -> std::io::Result<()> {

@@ -17,7 +17,7 @@ mod table;
 pub mod truth;
 mod tum;
 
-pub use atomic::{write_atomically, write_text};
+pub use atomic::{remove_partial_files, write_atomically, write_text};
 pub use designated::{DesignatedPoint, read_designated, write_designated};
 pub use error::DatasetError;
 pub use imu::{ImuNoise, ImuSample, read_imu, write_imu, write_imu_sensor};

@@ -3,8 +3,9 @@
 use super::{PipelineError, Progress};
 use crate::dataset::truth::{LandmarkObservation, write_asteroid, write_lander_states, write_landmarks};
 use crate::dataset::{
-    CameraSensor, StampedPose, write_atomically, write_camera_sensor, write_depth_tiff, write_designated,
-    write_grey_png, write_imu, write_imu_sensor, write_initial_state, write_manifest, write_text, write_tum,
+    CameraSensor, StampedPose, remove_partial_files, write_atomically, write_camera_sensor, write_depth_tiff,
+    write_designated, write_grey_png, write_imu, write_imu_sensor, write_initial_state, write_manifest, write_text,
+    write_tum,
 };
 use crate::render::{Gpu, RenderConfig, RenderedFrame, Renderer, World, expose};
 use crate::scene::{Scenario, Scene, SensorConfig, View};
@@ -98,6 +99,9 @@ fn prepare_folder(request: &SynthesizeRequest, scenario: &Scenario) -> Result<()
     let occupied = std::fs::read_dir(&request.out).is_ok_and(|mut entries| entries.next().is_some());
     if occupied && !request.resume {
         return Err(PipelineError::NotEmpty { path: request.out.clone() });
+    }
+    if occupied {
+        remove_partial_files(&request.out)?;
     }
     if resolved.exists() && std::fs::read_to_string(&resolved).ok().as_deref() != Some(&scenario.to_toml()) {
         return Err(PipelineError::OtherScenario { path: request.out.clone() });
