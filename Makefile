@@ -1,7 +1,7 @@
 # Two commands do all the set-up: `make demo` and `make test`. Both install what the system lacks (as root or through
 # sudo), build, and run. A second run installs nothing.
 
-BUILD_PACKAGES := libopencv-calib3d-dev libopencv-video-dev clang libclang1 mesa-vulkan-drivers libvulkan1 pkg-config g++
+BUILD_PACKAGES := libopencv-calib3d-dev libopencv-video-dev clang mesa-vulkan-drivers libvulkan1 pkg-config g++
 # The tests open the report in a headless browser. Ubuntu packages none (only a snap): there, that one test is skipped.
 TEST_PACKAGES := $(shell . /etc/os-release 2>/dev/null; [ "$$ID" = debian ] && echo chromium)
 

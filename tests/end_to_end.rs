@@ -3,7 +3,7 @@
 use opnav::evaluation::Metrics;
 use opnav::pipeline::{
     CameraSource, Estimator, FrontEndConfig, FrontEndMode, LandRequest, LandingConfig, Silent, SynthesizeRequest,
-    TumbleRequest, TumblingConfig, evaluate_result, land, synthesize, tumble,
+    TumbleRequest, TumblingConfig, evaluate_result, land, synthesize, tumble, write_page,
 };
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -68,9 +68,22 @@ fn descent_converges(seed: u64) {
         assert!(value(&metrics, name).abs() < most, "{name} = {}", value(&metrics, name));
     }
     assert!(metrics.verdict("converged_from_tracked_point").is_some_and(|v| v.holds), "{:?}", metrics.verdicts);
+    page_is_whole(&result);
     // The designated pixel itself is known to 0.1 px: at 9.4 km and 256 px of focal length, 3.7 m an axis.
     assert!(value(&metrics, "last_picture_horizontal_error") < 20.0);
     estimates_without_truth_are_the_same(&images, &result, navigate_descent);
+}
+
+/// The page about a real result carries its pictures, plots and tables in itself.
+fn page_is_whole(result: &Path) {
+    let page = result.with_extension("html");
+    write_page(&[result.into()], &page).expect("the page is written");
+    let html = std::fs::read_to_string(&page).expect("the page");
+    let count = |what: &str| html.matches(what).count();
+    assert!(count("<svg") >= 4, "{} plots", count("<svg"));
+    assert!(count("data:image/png;base64,") >= 5, "{} pictures", count("data:image/png;base64,"));
+    assert!(count("<table") >= 3, "{} tables", count("<table"));
+    assert_eq!(count("src=\"http"), 0, "the page needs the network");
 }
 
 fn tumbling_converges(seed: u64) {
