@@ -1,5 +1,6 @@
 //! Scenario to data set: build the scene, draw every frame with its truth, write the manifest last.
 
+use super::track::checked_frames;
 use super::{PipelineError, Progress};
 use crate::dataset::truth::{LandmarkObservation, write_asteroid, write_lander_states, write_landmarks};
 use crate::dataset::{
@@ -43,7 +44,7 @@ pub fn synthesize(request: &SynthesizeRequest, progress: &dyn Progress) -> Resul
     let scenario = Scenario::read(&request.scenario, &request.overrides)?;
     let scene = scenario.build(request.scenario.parent().unwrap_or(Path::new(".")))?;
     let parts = SceneParts::of(&scene);
-    let range = checked_range(request.frames.clone(), parts.views.len())?;
+    let range = checked_frames(request.frames.clone(), parts.views.len())?;
     let wanted = |(index, view): &(usize, &View)| range.contains(index) || is_finished(&request.out, view);
     let views: Vec<View> = parts.views.iter().enumerate().filter(wanted).map(|(_, view)| *view).collect();
     let gpu = Gpu::new(request.adapter.as_deref())?;
@@ -83,14 +84,6 @@ impl<'a> SceneParts<'a> {
             },
         }
     }
-}
-
-fn checked_range(frames: Option<Range<usize>>, available: usize) -> Result<Range<usize>, PipelineError> {
-    let range = frames.unwrap_or(0..available);
-    if range.start >= range.end || range.end > available {
-        return Err(PipelineError::FrameRange { from: range.start, to: range.end, available });
-    }
-    Ok(range)
 }
 
 /// Makes sure that the folder is new, or holds the same scenario and the user asked to resume.

@@ -51,6 +51,7 @@ pub fn track(request: &TrackRequest, progress: &dyn Progress) -> Result<Summary,
     Ok(summary)
 }
 
+/// The frames asked for, or all; refused where they do not lie within those there are.
 pub(super) fn checked_frames(frames: Option<Range<usize>>, available: usize) -> Result<Range<usize>, PipelineError> {
     let range = frames.unwrap_or(0..available);
     if range.start >= range.end || range.end > available {

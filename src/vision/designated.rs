@@ -1,8 +1,8 @@
 //! The designated landing point, carried from picture to picture by the verified matches about it.
 //!
 //! Ground near the point is nearly flat, so a weighted affine fit to the nearest matches says where it went; the grey
-//! levels of the patch, warped by that fit, then refine it. Each picture is reached from the oldest recent picture that
-//! shares enough tracks near the point, so that errors add up as seldom as possible. Where the point leaves the picture
+//! levels of the patch, warped by that fit, then refine it. Each picture is reached from all recent pictures that
+//! share enough tracks near the point, and what they say is averaged, so that errors add up slowly. Where the point leaves the picture
 //! or the matches, it ends: nothing is invented.
 
 use super::VisionError;

@@ -57,7 +57,7 @@ pub struct DesignatedStep {
     pub t_ns: i64,
     /// Pixel (u, v).
     pub pixel_px: Vector2<f64>,
-    /// 1σ of this transfer alone, px.
+    /// 1σ of this transfer alone, px; in the first picture, of the pixel that names the point.
     pub step_sigma_px: f64,
     /// Covariance of the pixel, with the first picture's and every transfer's share, px².
     pub covariance_px2: Matrix2<f64>,
@@ -70,8 +70,8 @@ pub struct DesignatedStep {
 /// Everything that the front end found in a sequence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrontEnd {
-    /// Tracks of two or more pictures in order of time, then of track number; the designated point's σ is the root mean
-    /// square of its whole covariance.
+    /// Tracks of two or more pictures in order of time, then of track number; the designated point's σ is that of its
+    /// last step: of the pixel given the ground point that is tracked. Its drift off the site is in `designated`.
     pub observations: Vec<TrackObservation>,
     /// Rotations of adjacent pictures in order of time, then of keyframe pairs.
     pub rotations: Vec<RelativeRotation>,
