@@ -5,28 +5,18 @@
 //! picture of and carry their exact truth. Every setting has a documented default, its unit in its name, and one
 //! `validate()`; unknown keys are refused.
 
-mod body_crater;
-mod body_relief;
-mod body_shape;
-mod body_source;
+mod body;
 mod camera_config;
 mod crater;
 mod descent;
 mod error;
-mod icosphere;
 mod imager;
 mod limits;
-mod mass_properties;
-mod mesh;
-mod mesh_landmarks;
-mod mesh_topology;
 mod noise;
 mod noise_octave;
-mod obj;
 mod scenario;
 mod scenario_file;
 mod sensor_config;
-mod small_body;
 mod terrain;
 mod terrain_config;
 mod terrain_patch;
@@ -36,8 +26,7 @@ mod terrain_scatter;
 mod tumbling;
 mod view;
 
-pub use body_shape::ProceduralBody;
-pub use body_source::{BodySource, MeshFile};
+pub use body::{BodySource, BodySurface, MassProperties, Mesh, MeshFile, ProceduralBody, SmallBody, SurfaceConfig};
 pub use camera_config::CameraConfig;
 pub use crater::{CraterClass, FeatureSample};
 pub use descent::{
@@ -46,15 +35,12 @@ pub use descent::{
 };
 pub use error::SceneError;
 pub use imager::Imager;
-pub use mass_properties::MassProperties;
-pub use mesh::Mesh;
 pub use noise::{
     NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseSample, noise_2d, noise_3d,
 };
 pub use noise_octave::{NoiseOctave, OctaveStrength};
 pub use scenario::{Mission, Scenario, Scene};
 pub use sensor_config::{Exposure, SensorConfig};
-pub use small_body::{BodySurface, SmallBody, SurfaceConfig};
 pub use terrain::{GroundDetail, GroundSample, Terrain};
 pub use terrain_config::{TerrainConfig, TerrainConfigError};
 pub use terrain_patch::TerrainPatch;

@@ -37,7 +37,7 @@ impl RigidBody {
         if (inertia - inertia.transpose()).abs().max() > 1e-9 * inertia.abs().max() {
             return Err(fault("the tensor must be symmetric"));
         }
-        let moments = super::super::mass_properties::principal_moments(inertia);
+        let moments = crate::scene::body::principal_moments(inertia);
         if moments[0] <= 1e-12 * moments[2] {
             return Err(fault("the tensor must be positive definite"));
         }

@@ -1,6 +1,7 @@
 //! A small body: its shape and how its surface looks.
 
-use super::{Mesh, SceneError, limits};
+use super::Mesh;
+use crate::scene::{SceneError, limits};
 use serde::{Deserialize, Serialize};
 
 /// How a small body's surface looks below the resolution of its mesh.

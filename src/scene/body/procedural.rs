@@ -1,8 +1,9 @@
 //! Procedural small bodies: an ellipsoid with relief and craters.
 
-use super::body_crater::BodyCrater;
-use super::body_relief::BodyRelief;
-use super::{Mesh, SceneError, limits};
+use super::Mesh;
+use super::crater::BodyCrater;
+use super::relief::BodyRelief;
+use crate::scene::{SceneError, limits};
 use crate::stats::random_stream;
 use nalgebra::Vector3;
 use rand_distr::{Distribution, UnitSphere};

@@ -1,6 +1,7 @@
 //! Whether a mesh is the closed surface of a solid.
 
-use super::{Mesh, SceneError};
+use super::Mesh;
+use crate::scene::SceneError;
 use std::collections::HashMap;
 
 impl Mesh {

@@ -1,6 +1,7 @@
 //! Meshes from Wavefront OBJ files.
 
-use super::{Mesh, SceneError};
+use super::Mesh;
+use crate::scene::{SceneError, limits};
 use nalgebra::Vector3;
 use std::collections::HashMap;
 use std::path::Path;
@@ -13,7 +14,7 @@ impl Mesh {
     /// Names the file, and the line where there is one, of: a missing file, a line cut short, a coordinate that is not
     /// a finite number, a face that names a vertex that is not there, no faces at all, faces of zero area.
     pub fn read_obj(path: &Path, metres_per_unit: f64) -> Result<Mesh, SceneError> {
-        super::limits::positive("metres_per_unit", metres_per_unit).map_err(|e| e.in_file(path))?;
+        limits::positive("metres_per_unit", metres_per_unit).map_err(|e| e.in_file(path))?;
         let text = std::fs::read_to_string(path).map_err(|source| SceneError::Io {
             action: "read the shape",
             path: path.into(),

@@ -1,6 +1,7 @@
 //! Where a small body's shape comes from.
 
-use super::{MassProperties, Mesh, ProceduralBody, SceneError, limits};
+use super::{MassProperties, Mesh, ProceduralBody};
+use crate::scene::{SceneError, limits};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 

@@ -5,7 +5,8 @@
 //! ∫x xᵀ dV = V/20 (s sᵀ + a aᵀ + b bᵀ + c cᵀ), s = a+b+c (Tonon, "Explicit exact formulas for the 3-D tetrahedron
 //! inertia tensor", 2004).
 
-use super::{Mesh, SceneError};
+use super::Mesh;
+use crate::scene::SceneError;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 /// Mass properties at a density of 1 kg/m³.
@@ -27,7 +28,7 @@ impl MassProperties {
 }
 
 /// Eigenvalues of a symmetric tensor in ascending order.
-pub(super) fn principal_moments(inertia: &Matrix3<f64>) -> Vector3<f64> {
+pub(in crate::scene) fn principal_moments(inertia: &Matrix3<f64>) -> Vector3<f64> {
     let mut moments: [f64; 3] = SymmetricEigen::new(*inertia).eigenvalues.into();
     moments.sort_by(f64::total_cmp);
     Vector3::from(moments)
