@@ -1,6 +1,7 @@
 //! Tests of the room `scene`.
 
 mod bodies;
+mod cameras;
 mod descent;
 mod meshes;
 mod scenarios;

@@ -27,7 +27,7 @@ mod tumbling;
 mod view;
 
 pub use body::{BodySource, BodySurface, MassProperties, Mesh, MeshFile, ProceduralBody, SmallBody, SurfaceConfig};
-pub use camera_config::CameraConfig;
+pub use camera_config::{CameraConfig, DistortionConfig, DistortionModel};
 pub use crater::{CraterClass, FeatureSample};
 pub use descent::{
     CameraMountConfig, DescentConfig, DescentMotion, DescentScene, FrameSchedule, GuidanceConfig, GuidanceProfile,

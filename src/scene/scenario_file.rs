@@ -1,6 +1,8 @@
 //! Scenario files: TOML with defaults, overrides, and errors that name file and key.
 
-use super::{CameraConfig, DescentConfig, Mission, Scenario, SceneError, SensorConfig, TumblingConfig};
+use super::{
+    CameraConfig, DescentConfig, DistortionConfig, Mission, Scenario, SceneError, SensorConfig, TumblingConfig,
+};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use toml::{Table, Value};
@@ -24,19 +26,47 @@ pub(super) struct ScenarioFile {
     tumbling: Option<TumblingConfig>,
 }
 
-/// The camera as it stands in a file: the default field of view depends on the mission.
+/// The camera as it stands in a file: the default field of view depends on the mission, and none may stand beside focal
+/// lengths.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct CameraTable {
     width_px: u32,
     height_px: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
     fov_deg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    focal_px: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    center_px: Option<[f64; 2]>,
+    distortion: DistortionConfig,
 }
 
 impl Default for CameraTable {
     fn default() -> Self {
-        let CameraConfig { width_px, height_px, .. } = CameraConfig::default();
-        CameraTable { width_px, height_px, fov_deg: None }
+        let mut table = CameraTable::from(CameraConfig::default());
+        table.fov_deg = None;
+        table
+    }
+}
+
+impl From<CameraConfig> for CameraTable {
+    fn from(config: CameraConfig) -> Self {
+        let CameraConfig { width_px, height_px, fov_deg, focal_px, center_px, distortion } = config;
+        let fov_deg = focal_px.is_none().then_some(fov_deg);
+        CameraTable { width_px, height_px, fov_deg, focal_px, center_px, distortion }
+    }
+}
+
+impl CameraTable {
+    /// The camera, with the mission's field of view unless the file has one.
+    fn resolve(self, mission_fov_deg: f64) -> Result<CameraConfig, &'static str> {
+        let CameraTable { width_px, height_px, fov_deg, focal_px, center_px, distortion } = self;
+        if fov_deg.is_some() && focal_px.is_some() {
+            return Err("the table [camera] has both fov_deg and focal_px: drop one");
+        }
+        let fov_deg = fov_deg.unwrap_or(mission_fov_deg);
+        Ok(CameraConfig { width_px, height_px, fov_deg, focal_px, center_px, distortion })
     }
 }
 
@@ -81,8 +111,7 @@ impl ScenarioFile {
                 return Err(unusable("it has both a table [descent] and a table [tumbling]: drop one"));
             }
         };
-        let CameraTable { width_px, height_px, fov_deg: given_deg } = self.camera;
-        let camera = CameraConfig { width_px, height_px, fov_deg: given_deg.unwrap_or(fov_deg) };
+        let camera = self.camera.resolve(fov_deg).map_err(unusable)?;
         Ok(Scenario { seed: self.seed, camera, sensor: self.sensor, mission })
     }
 
@@ -94,18 +123,11 @@ impl ScenarioFile {
 
 impl From<&Scenario> for ScenarioFile {
     fn from(scenario: &Scenario) -> Self {
-        let CameraConfig { width_px, height_px, fov_deg } = scenario.camera;
         let (descent, tumbling) = match &scenario.mission {
             Mission::Descent(descent) => (Some(descent.clone()), None),
             Mission::Tumbling(tumbling) => (None, Some(tumbling.clone())),
         };
-        ScenarioFile {
-            seed: scenario.seed,
-            camera: CameraTable { width_px, height_px, fov_deg: Some(fov_deg) },
-            sensor: scenario.sensor,
-            descent,
-            tumbling,
-        }
+        ScenarioFile { seed: scenario.seed, camera: scenario.camera.into(), sensor: scenario.sensor, descent, tumbling }
     }
 }
 

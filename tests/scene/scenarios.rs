@@ -113,7 +113,7 @@ fn unknown_keys_are_refused_with_file_and_key() {
     let cases = [
         ("sed = 1\n[descent]", "sed"),
         ("[descent]\nspeed = 1", "speed"),
-        ("[camera]\ndistortion = 1\n[descent]", "distortion"),
+        ("[camera]\nlens = 1\n[descent]", "lens"),
         ("[descent.imu]\nbias = 1", "bias"),
         ("[descent.schedule.uniform]\nrate = 1", "rate"),
         ("[descent.schedule.sometimes]\nrate = 1", "sometimes"),
@@ -135,6 +135,13 @@ fn impossible_values_are_refused_with_their_key() {
         ("[camera]\nfov_deg = 180\n[descent]", "camera.fov_deg"),
         ("[camera]\nfov_deg = nan\n[descent]", "camera.fov_deg"),
         ("[camera]\nwidth_px = 0\n[descent]", "camera.width_px"),
+        ("[camera]\nfocal_px = [0, 900]\n[descent]", "camera.focal_px"),
+        ("[camera]\ncenter_px = [inf, 0]\n[descent]", "camera.center_px"),
+        ("[camera.distortion]\ncoefficients = [0.1, 0, 0, 0]\n[descent]", "camera.distortion.coefficients"),
+        (
+            "[camera.distortion]\nmodel = \"radial-tangential\"\ncoefficients = [-0.9, 0, 0, 0]\n[descent]",
+            "camera.distortion.coefficients",
+        ),
         ("[sensor]\nfull_well_electrons = -1\n[descent]", "sensor.full_well_electrons"),
         ("[sensor]\nbits = 33\n[descent]", "sensor.bits"),
         (

@@ -43,17 +43,21 @@ impl PhaseConfig {
 }
 
 /// Centre in camera axes (m) of a sphere of `radius_m` that fills `fill_fraction` of the picture's smaller side when it
-/// is in the middle, moved sideways by `offset_px` at the same distance. The silhouette of a sphere at distance D has
-/// the half-angle asin(R/D).
+/// is on the optical axis, moved to the pixel `offset_px` from the picture's middle at the same distance. The silhouette
+/// of a sphere at distance D has the half-angle asin(R/D).
 pub(super) fn center_in_camera_m(
     camera: &Camera,
     radius_m: f64,
     fill_fraction: f64,
     offset_px: &Vector2<f64>,
 ) -> Vector3<f64> {
-    let half_side = (0.5 * f64::from(camera.width_px) / camera.focal_px.x)
-        .min(0.5 * f64::from(camera.height_px) / camera.focal_px.y);
+    let size_px = Vector2::new(f64::from(camera.width_px), f64::from(camera.height_px));
+    let half_side = (0.5 * size_px).component_div(&camera.focal_px).min();
+    // Distortion that cannot be inverted here leaves the pinhole's direction; it only moves the body a little.
+    let ideal = |distorted: Vector2<f64>| camera.distortion.undistort(&distorted).unwrap_or(distorted);
+    let half_side = ideal(Vector2::new(half_side, 0.0)).norm();
     let distance_m = radius_m / (fill_fraction * half_side).atan().sin();
-    let sideways = offset_px.component_div(&camera.focal_px);
+    let middle_px = (0.5 * size_px).add_scalar(-0.5);
+    let sideways = ideal((middle_px + offset_px - camera.center_px).component_div(&camera.focal_px));
     Vector3::new(sideways.x, sideways.y, 1.0).normalize() * distance_m
 }
