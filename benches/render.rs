@@ -13,6 +13,7 @@ fn look_down(height_m: f64) -> View {
         t_ns: 0,
         reference_from_camera: Isometry3::from_parts(eye.into(), UnitQuaternion::from_matrix(&rotation)),
         sun_in_reference: Unit::new_normalize(Vector3::new(1.0, 0.5, 0.8)),
+        sun_angular_radius_rad: 0.0,
     }
 }
 

@@ -1,14 +1,15 @@
 // From surface samples to radiance, depth and mask: photometry, cast shadows, and detail below the mesh's resolution.
-// Follows shaders/noise.wgsl in one module.
+// Follows shaders/noise.wgsl and shaders/photometry.wgsl in one module.
 
 struct Shading {
     reference_from_camera: mat4x4<f32>, // rotation
     shadow_from_relative: mat4x4<f32>,  // relative = reference axes, camera at the origin, m
-    sun: vec4<f32>,       // direction in reference axes; w = radiance of the sky over that of the Sun
+    sun: vec4<f32>,       // direction in reference axes; w = radiance of the sky over that of a sunlit white surface
     intrinsics: vec4<f32>, // fu, fv, cu, cv in px
-    surface: vec4<f32>,   // mean albedo, lunar weight, r.m.s. slope of the detail, shadow texel in m
+    surface: vec4<f32>,   // mean albedo, unused, r.m.s. slope of the detail, shadow texel in m
     level: vec4<f32>,     // terrain: height above ground m, range over spacing, morph start, morph end
     counts: vec4<u32>,    // supersampling, octaves
+    photometry: Photometry,
     octaves: array<Octave, OCTAVES>,
 }
 
@@ -130,23 +131,16 @@ fn sunlight(surface: Surface) -> f32 {
     return 0.25 * light;
 }
 
-// I/F of a lunar-Lambert surface (McEwen 1991, "Photometric functions for photoclinometry"): weight 0 is Lambert, 1 is
-// Lommel-Seeliger.
-fn reflectance(albedo: f32, sun_cosine: f32, view_cosine: f32) -> f32 {
-    let weight = shading.surface.y;
-    return albedo * sun_cosine * (2.0 * weight / (sun_cosine + view_cosine) + 1.0 - weight);
-}
-
 fn radiance(surface: Surface) -> f32 {
     let to_camera = -normalize(surface.relative);
     let sun_cosine = dot(surface.normal, shading.sun.xyz);
-    let view_cosine = max(dot(surface.normal, to_camera), 0.05);
     // Bumps cannot raise the ground beyond the terminator by more than their own slope.
     let width = max(shading.surface.z, 1e-5);
     let horizon = clamp(0.5 + 0.5 * dot(surface.smooth_normal, shading.sun.xyz) / width, 0.0, 1.0);
     var total = shading.sun.w * surface.albedo * (0.5 + 0.5 * surface.normal.z);
     if sun_cosine > 0.0 && horizon > 0.0 {
-        total += horizon * sunlight(surface) * reflectance(surface.albedo, sun_cosine, view_cosine);
+        let direct = reflectance(shading.photometry, surface.albedo, surface.normal, shading.sun.xyz, to_camera);
+        total += horizon * sunlight(surface) * direct;
     }
     return total;
 }

@@ -3,10 +3,11 @@
 use image::GrayImage;
 use nalgebra::{Isometry3, Matrix3, Unit, UnitQuaternion, Vector2, Vector3};
 use opnav::geometry::{Camera, Distortion};
-use opnav::render::{
-    Gpu, Photometry, RenderConfig, RenderError, RenderedFrame, Renderer, World, expose, list_adapters,
+use opnav::render::{Gpu, RenderConfig, RenderError, RenderedFrame, Renderer, World, expose, list_adapters};
+use opnav::scene::{
+    BodySurface, Exposure, GroundDetail, LunarWeight, Mesh, Photometry, SensorConfig, SmallBody, Terrain,
+    TerrainConfig, View,
 };
-use opnav::scene::{BodySurface, Exposure, GroundDetail, Mesh, SensorConfig, SmallBody, Terrain, TerrainConfig, View};
 use opnav::stats::random_stream;
 use rand::RngExt;
 
@@ -23,6 +24,7 @@ fn look_at(eye: Vector3<f64>, target: Vector3<f64>, up: Vector3<f64>, sun: Vecto
         t_ns: 7,
         reference_from_camera: Isometry3::from_parts(eye.into(), UnitQuaternion::from_matrix(&rotation)),
         sun_in_reference: Unit::new_normalize(sun),
+        sun_angular_radius_rad: 0.0,
     }
 }
 
@@ -62,11 +64,8 @@ fn lobed(rings: u32) -> Mesh {
 }
 
 fn plain() -> BodySurface {
-    BodySurface { albedo: 0.5, albedo_contrast: 0.0, detail_slope: 0.0, ..BodySurface::default() }
-}
-
-fn lambert() -> RenderConfig {
-    RenderConfig { photometry: Photometry::Lambert, sky_light: 0.0, ..RenderConfig::default() }
+    let photometry = Photometry::Lambert;
+    BodySurface { albedo: 0.5, photometry, albedo_contrast: 0.0, detail_slope: 0.0, ..BodySurface::default() }
 }
 
 fn render(world: World, camera: &Camera, config: &RenderConfig, view: &View) -> RenderedFrame {
@@ -158,7 +157,8 @@ fn known_points_land_on_their_pixels() {
         pixels.push(camera.project(&in_camera.coords).expect("in front"));
     }
     let body = SmallBody { mesh, surface: plain() };
-    let frame = render(World::Body(&body), &camera, &RenderConfig { supersampling: 8, ..lambert() }, &view);
+    let frame =
+        render(World::Body(&body), &camera, &RenderConfig { supersampling: 8, ..RenderConfig::default() }, &view);
     let offsets: Vec<Vector2<f64>> = pixels.iter().map(|p| centroid(&frame, p) - p).collect();
     let bias = offsets.iter().sum::<Vector2<f64>>() / offsets.len() as f64;
     assert!(bias.norm() < 0.02, "bias {bias}");
@@ -193,7 +193,7 @@ fn up_in_the_world_is_up_in_the_picture() {
     let body = SmallBody { mesh, surface: plain() };
     let eye = Vector3::new(0.0, 0.0, 50.0);
     let view = look_at(eye, Vector3::zeros(), Vector3::y(), Vector3::z());
-    let frame = render(World::Body(&body), &Camera::from_fov(64, 64, 1.0), &lambert(), &view);
+    let frame = render(World::Body(&body), &Camera::from_fov(64, 64, 1.0), &RenderConfig::default(), &view);
     let brightest = |rows: std::ops::Range<u32>| {
         rows.flat_map(|v| (0..64).map(move |u| (u, v)))
             .map(|(u, v)| frame.radiance[frame.index(u, v)])
@@ -259,13 +259,13 @@ fn lit_pixels_are_those_that_see_the_sun() {
 
 #[test]
 fn a_sphere_shines_as_its_formula_says() {
-    let body = SmallBody { mesh: sphere(160, |_| 100.0), surface: plain() };
     let camera = Camera::from_fov(256, 256, 0.3);
     let eye = Vector3::new(1000.0, 0.0, 0.0);
     let view = look_at(eye, Vector3::zeros(), Vector3::z(), Vector3::new(1.0, 1.2, 0.3));
     for weight in [0.0, 0.6, 1.0] {
-        let photometry = if weight == 0.0 { Photometry::Lambert } else { Photometry::LunarLambert { weight } };
-        let frame = render(World::Body(&body), &camera, &RenderConfig { photometry, ..lambert() }, &view);
+        let photometry = Photometry::LunarLambert { weight: LunarWeight::Constant(weight) };
+        let body = SmallBody { mesh: sphere(160, |_| 100.0), surface: BodySurface { photometry, ..plain() } };
+        let frame = render(World::Body(&body), &camera, &RenderConfig::default(), &view);
         let mut checked = 0;
         for (u, v) in inner(&frame, 2, |i| frame.mask[i] & RenderedFrame::LIT != 0) {
             let direction = ray(&camera, &view, u, v).normalize();
@@ -306,9 +306,16 @@ fn the_terminator_band_lies_between_80_and_100_degrees() {
     }
 }
 
-/// Ground without relief.
+/// Lambertian ground without relief, under a black sky.
 fn flat() -> TerrainConfig {
-    TerrainConfig { rms_slope: 0.0, crater_density: 0.0, rock_density: 0.0, ..TerrainConfig::default() }
+    TerrainConfig {
+        photometry: Photometry::Lambert,
+        sky_light: 0.0,
+        rms_slope: 0.0,
+        crater_density: 0.0,
+        rock_density: 0.0,
+        ..TerrainConfig::default()
+    }
 }
 
 #[test]
@@ -363,7 +370,7 @@ fn albedo_in_the_picture_is_that_of_the_terrain() {
     let camera = Camera::from_fov(256, 256, 1.2);
     for (place, height_m) in [([3300.0, 5870.0], 6570.0), ([20_000.0, -15_000.0], 40.0), ([0.3, 0.2], 3.0)] {
         let view = look_down(&terrain, place, height_m);
-        let config = RenderConfig { supersampling: 1, ..lambert() };
+        let config = RenderConfig { supersampling: 1, ..RenderConfig::default() };
         let frame = render(World::Terrain(&terrain), &camera, &config, &view);
         let eye = view.reference_from_camera.translation.vector;
         let (mut off, mut off_stranger): (f64, f64) = (0.0, 0.0);

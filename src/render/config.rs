@@ -3,29 +3,6 @@
 use super::RenderError;
 use serde::{Deserialize, Serialize};
 
-/// How a surface scatters sunlight.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Photometry {
-    /// I/F = albedo·µ₀.
-    Lambert,
-    /// I/F = albedo·(2·L·µ₀/(µ₀+µ) + (1-L)·µ₀) (McEwen 1991); L = 1 is Lommel–Seeliger.
-    LunarLambert {
-        /// The weight L, 0 to 1.
-        weight: f64,
-    },
-}
-
-impl Photometry {
-    /// Weight of the Lommel–Seeliger part.
-    pub fn lunar_weight(&self) -> f64 {
-        match self {
-            Photometry::Lambert => 0.0,
-            Photometry::LunarLambert { weight } => *weight,
-        }
-    }
-}
-
 /// Parameters of rendering.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
@@ -36,21 +13,11 @@ pub struct RenderConfig {
     pub shadow_map_px: u32,
     /// Largest spacing of terrain vertices in px, seen face on (default 1.5).
     pub vertex_spacing_px: f64,
-    /// How the surface scatters sunlight (default lunar-Lambert with weight 0.6).
-    pub photometry: Photometry,
-    /// Radiance of the sky over that of the Sun, for terrain (default 0.15, a hazy Martian sky); small bodies have none.
-    pub sky_light: f64,
 }
 
 impl Default for RenderConfig {
     fn default() -> Self {
-        RenderConfig {
-            supersampling: 2,
-            shadow_map_px: 2048,
-            vertex_spacing_px: 1.5,
-            photometry: Photometry::LunarLambert { weight: 0.6 },
-            sky_light: 0.15,
-        }
+        RenderConfig { supersampling: 2, shadow_map_px: 2048, vertex_spacing_px: 1.5 }
     }
 }
 
@@ -64,8 +31,6 @@ impl RenderConfig {
             ("supersampling", f64::from(self.supersampling), 1.0, 8.0, "1 to 8"),
             ("shadow_map_px", f64::from(self.shadow_map_px), 64.0, 8192.0, "64 to 8192"),
             ("vertex_spacing_px", self.vertex_spacing_px, 0.25, 16.0, "0.25 to 16 px"),
-            ("photometry.weight", self.photometry.lunar_weight(), 0.0, 1.0, "0 to 1"),
-            ("sky_light", self.sky_light, 0.0, 1.0, "0 to 1"),
         ];
         for (key, value, low, high, range) in ranges {
             if !(low..=high).contains(&value) {

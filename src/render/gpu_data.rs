@@ -37,6 +37,18 @@ pub(super) struct Octave {
     pub fraction: [f32; 4],
 }
 
+/// `Photometry` in `shaders/photometry.wgsl`.
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct Photometry {
+    pub model: u32,
+    pub unused_1: f32,
+    pub unused_2: f32,
+    pub unused_3: f32,
+    pub lunar: [f32; 4],
+    pub rough: [f32; 4],
+}
+
 /// `Shading` in `shaders/shading.wgsl`.
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
@@ -48,6 +60,7 @@ pub(super) struct Shading {
     pub surface: [f32; 4],
     pub level: [f32; 4],
     pub counts: [u32; 4],
+    pub photometry: Photometry,
     pub octaves: [Octave; OCTAVES],
 }
 
@@ -105,11 +118,12 @@ mod tests {
             assert_layout!(source, Geometry, [clip_from_relative, forward, camera_high, camera_low, level]);
         }
         assert_layout!(terrain, Tile, [base, spacing, slot]);
+        assert_layout!(shading, Photometry, [model, unused_1, unused_2, unused_3, lunar, rough]);
         assert_layout!(shading, Octave, [row_x, row_y, row_z, cell, fraction]);
         assert_layout!(
             shading,
             Shading,
-            [reference_from_camera, shadow_from_relative, sun, intrinsics, surface, level, counts, octaves]
+            [reference_from_camera, shadow_from_relative, sun, intrinsics, surface, level, counts, photometry, octaves]
         );
         assert!(shading.contains(&format!("OCTAVES: u32 = {OCTAVES}u")));
     }

@@ -14,6 +14,7 @@ mod geometry_pass;
 mod gpu;
 mod gpu_data;
 mod noise;
+mod photometry;
 mod projection;
 mod read_back;
 mod renderer;
@@ -28,7 +29,7 @@ mod terrain_pool;
 mod terrain_tile;
 mod terrain_view;
 
-pub use config::{Photometry, RenderConfig};
+pub use config::RenderConfig;
 pub use error::RenderError;
 pub use frame::RenderedFrame;
 pub use gpu::{AdapterReport, Gpu, list_adapters};

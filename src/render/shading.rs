@@ -8,9 +8,12 @@ use super::targets::{SampleTarget, cleared, texture};
 use super::{Gpu, RenderError, RenderedFrame};
 use wgpu::TextureFormat::{R8Uint, R32Float};
 
-/// The shader with the noise that it calls.
-pub(super) const SOURCE: &str =
-    concat!(include_str!("../../shaders/noise.wgsl"), include_str!("../../shaders/shading.wgsl"));
+/// The shader with the noise and the photometry that it calls.
+pub(super) const SOURCE: &str = concat!(
+    include_str!("../../shaders/noise.wgsl"),
+    include_str!("../../shaders/photometry.wgsl"),
+    include_str!("../../shaders/shading.wgsl")
+);
 
 /// Formats of radiance, depth and mask.
 const FORMATS: [(wgpu::TextureFormat, u32); 3] = [(R32Float, 4), (R32Float, 4), (R8Uint, 1)];

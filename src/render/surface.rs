@@ -4,6 +4,7 @@ use super::body_geometry::BodyGeometry;
 use super::geometry_pass::Role;
 use super::gpu_data::{Geometry, Shading, columns, dropped, four};
 use super::noise::octave_table;
+use super::photometry::photometry_data;
 use super::projection::clip_from_camera;
 use super::shadow::{ShadowBox, ShadowMap, shadow_axes, texture_from_clip};
 use super::terrain_geometry::TerrainGeometry;
@@ -11,7 +12,7 @@ use super::terrain_levels::LevelRange;
 use super::terrain_view::{ground_box, view_volume};
 use super::{Gpu, RenderConfig, RenderError, World};
 use crate::geometry::Camera;
-use crate::scene::{BodySurface, NoiseOctave, OctaveStrength, View};
+use crate::scene::{BodySurface, NoiseOctave, OctaveStrength, Photometry, View};
 use nalgebra::{Matrix4, Vector3};
 
 /// A surface on the adapter.
@@ -20,6 +21,9 @@ pub(super) struct Surface {
     kind: Kind,
     octaves: Vec<NoiseOctave>,
     mean_albedo: f64,
+    photometry: Photometry,
+    /// Radiance of the sky over that of a sunlit white surface; 0 for a body.
+    sky_light: f64,
     /// R.m.s. slope of the detail that only shading knows.
     detail_slope: f64,
 }
@@ -46,12 +50,16 @@ impl Surface {
                 kind: Kind::Terrain(Box::new(TerrainGeometry::new(gpu, terrain))),
                 octaves: terrain.octaves().to_vec(),
                 mean_albedo: terrain.mean_albedo(),
+                photometry: *terrain.photometry(),
+                sky_light: terrain.sky_light(),
                 detail_slope: GROUND_DETAIL_SLOPE,
             },
             World::Body(body) => Surface {
                 kind: Kind::Body(Box::new(BodyGeometry::new(gpu, &body.mesh)?)),
                 octaves: body_octaves(&body.surface),
                 mean_albedo: body.surface.albedo,
+                photometry: body.surface.photometry,
+                sky_light: 0.0,
                 detail_slope: body.surface.detail_slope,
             },
         })
@@ -85,17 +93,17 @@ impl Surface {
         let finest_m = 0.5 * placement.nearest_m.max(0.0) / camera.mean_focal_px();
         let eye_m = view.reference_from_camera.translation.vector;
         let (octaves, count) = octave_table(&self.octaves, &eye_m, finest_m);
-        let sky = if placement.levels.is_some() { config.sky_light } else { 0.0 };
         let texel_m = shadow_map.texel_m(&placement.covered);
         Ok(Shading {
             reference_from_camera: columns(&rotation),
             shadow_from_relative: columns(&(texture_from_clip() * shadow_clip)),
-            sun: four(&view.sun_in_reference, sky),
+            sun: four(&view.sun_in_reference, self.sky_light),
             intrinsics: [camera.focal_px.x, camera.focal_px.y, camera.center_px.x, camera.center_px.y]
                 .map(|v| v as f32),
-            surface: [self.mean_albedo, config.photometry.lunar_weight(), self.detail_slope, texel_m].map(|v| v as f32),
+            surface: [self.mean_albedo, 0.0, self.detail_slope, texel_m].map(|v| v as f32),
             level: placement.level(),
             counts: [config.supersampling, count, 0, 0],
+            photometry: photometry_data(&self.photometry),
             octaves,
         })
     }

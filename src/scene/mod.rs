@@ -14,9 +14,11 @@ mod imager;
 mod limits;
 mod noise;
 mod noise_octave;
+mod photometry;
 mod scenario;
 mod scenario_file;
 mod sensor_config;
+mod sunlight;
 mod terrain;
 mod terrain_config;
 mod terrain_patch;
@@ -39,8 +41,10 @@ pub use noise::{
     NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseSample, noise_2d, noise_3d,
 };
 pub use noise_octave::{NoiseOctave, OctaveStrength};
+pub use photometry::{LunarWeight, PhotometricAngles, Photometry, oren_nayar_coefficients};
 pub use scenario::{Mission, Scenario, Scene};
 pub use sensor_config::{Exposure, SensorConfig};
+pub use sunlight::sun_angular_radius_rad;
 pub use terrain::{GroundDetail, GroundSample, Terrain};
 pub use terrain_config::{TerrainConfig, TerrainConfigError};
 pub use terrain_patch::TerrainPatch;

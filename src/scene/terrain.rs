@@ -1,6 +1,6 @@
 //! Procedural terrain: fractal relief, craters and albedo, known at every place from kilometres down to centimetres.
 
-use super::{CraterClass, FeatureSample, NoiseOctave, OctaveStrength, RockClass, Scatter, TerrainConfig};
+use super::{CraterClass, FeatureSample, NoiseOctave, OctaveStrength, Photometry, RockClass, Scatter, TerrainConfig};
 use crate::stats::random_stream;
 use nalgebra::Vector2;
 use rand::RngExt;
@@ -12,6 +12,8 @@ pub struct Terrain {
     craters: Vec<CraterClass>,
     rocks: Vec<RockClass>,
     mean_albedo: f64,
+    photometry: Photometry,
+    sky_light: f64,
     height_at_origin_m: f64,
 }
 
@@ -55,6 +57,8 @@ impl Terrain {
             craters: crater_classes(config, seed),
             rocks: rock_classes(config, seed),
             mean_albedo: config.albedo,
+            photometry: config.photometry,
+            sky_light: config.sky_light,
             height_at_origin_m: 0.0,
         };
         terrain.height_at_origin_m = terrain.height_m(0.0, 0.0);
@@ -142,6 +146,16 @@ impl Terrain {
     /// Mean albedo.
     pub fn mean_albedo(&self) -> f64 {
         self.mean_albedo
+    }
+
+    /// How the ground scatters sunlight.
+    pub fn photometry(&self) -> &Photometry {
+        &self.photometry
+    }
+
+    /// Radiance of the sky over that of a sunlit white surface.
+    pub fn sky_light(&self) -> f64 {
+        self.sky_light
     }
 }
 

@@ -1,5 +1,6 @@
 //! Parameters of procedural terrain.
 
+use super::Photometry;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -31,6 +32,10 @@ pub struct TerrainConfig {
     pub slope_scale_m: f64,
     /// Mean albedo, 0 to 1 (default 0.2).
     pub albedo: f64,
+    /// How the ground scatters sunlight (default lunar-Lambert with weight 0.6).
+    pub photometry: Photometry,
+    /// Radiance of the sky over that of a sunlit white surface (default 0.15, a hazy Martian sky).
+    pub sky_light: f64,
     /// Relative r.m.s. variation of the albedo, per octave (default 0.04); less at wavelengths of
     /// kilometres.
     pub albedo_contrast: f64,
@@ -66,6 +71,8 @@ impl Default for TerrainConfig {
             rms_slope: 0.09,
             slope_scale_m: 1.0,
             albedo: 0.2,
+            photometry: Photometry::default(),
+            sky_light: 0.15,
             albedo_contrast: 0.04,
             crater_density: 0.5,
             smallest_crater_m: 0.3,
@@ -94,6 +101,7 @@ impl TerrainConfig {
             ("rms_slope", self.rms_slope, 0.0, 1.0, "0 to 1"),
             ("slope_scale_m", self.slope_scale_m, 1e-3, 1e5, "0.001 to 100000 m"),
             ("albedo", self.albedo, 0.0, 1.0, "0 to 1"),
+            ("sky_light", self.sky_light, 0.0, 1.0, "0 to 1"),
             ("albedo_contrast", self.albedo_contrast, 0.0, 0.3, "0 to 0.3"),
             ("crater_density", self.crater_density, 0.0, 1.0, "0 to 1"),
             ("smallest_crater_m", self.smallest_crater_m, 0.01, 1e4, "0.01 to 10000 m"),

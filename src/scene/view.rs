@@ -12,4 +12,6 @@ pub struct View {
     pub reference_from_camera: Isometry3<f64>,
     /// Direction to the Sun in the reference frame.
     pub sun_in_reference: Unit<Vector3<f64>>,
+    /// Half the angle that the Sun's disc spans, in rad; 0 is a point, which casts hard shadows.
+    pub sun_angular_radius_rad: f64,
 }

@@ -1,7 +1,7 @@
 //! A small body: its shape and how its surface looks.
 
 use super::Mesh;
-use crate::scene::{SceneError, limits};
+use crate::scene::{Photometry, SceneError, limits};
 use serde::{Deserialize, Serialize};
 
 /// How a small body's surface looks below the resolution of its mesh.
@@ -12,6 +12,8 @@ pub struct BodySurface {
     pub seed: u64,
     /// Mean albedo, 0 to 1.
     pub albedo: f64,
+    /// How the surface scatters sunlight.
+    pub photometry: Photometry,
     /// Relative r.m.s. variation of the albedo, per octave of detail.
     pub albedo_contrast: f64,
     /// Largest wavelength of the detail in m.
@@ -22,7 +24,14 @@ pub struct BodySurface {
 
 impl Default for BodySurface {
     fn default() -> Self {
-        BodySurface { seed: 1, albedo: 0.12, albedo_contrast: 0.06, detail_wavelength_m: 60.0, detail_slope: 0.25 }
+        BodySurface {
+            seed: 1,
+            albedo: 0.12,
+            photometry: Photometry::default(),
+            albedo_contrast: 0.06,
+            detail_wavelength_m: 60.0,
+            detail_slope: 0.25,
+        }
     }
 }
 
@@ -38,6 +47,8 @@ pub struct SurfaceConfig {
     pub detail_wavelength_edges: f64,
     /// R.m.s. slope of the bump detail, rise over run (default 0.25).
     pub detail_slope: f64,
+    /// How the surface scatters sunlight (default lunar-Lambert with weight 0.6).
+    pub photometry: Photometry,
 }
 
 impl Default for SurfaceConfig {
@@ -48,6 +59,7 @@ impl Default for SurfaceConfig {
             albedo_contrast: surface.albedo_contrast,
             detail_wavelength_edges: 12.0,
             detail_slope: surface.detail_slope,
+            photometry: surface.photometry,
         }
     }
 }
@@ -58,6 +70,7 @@ impl SurfaceConfig {
         BodySurface {
             seed,
             albedo: self.albedo,
+            photometry: self.photometry,
             albedo_contrast: self.albedo_contrast,
             detail_wavelength_m: self.detail_wavelength_edges * mesh.mean_edge_m(),
             detail_slope: self.detail_slope,
@@ -72,7 +85,8 @@ impl SurfaceConfig {
         limits::within("albedo", self.albedo, 0.001, 1.0)?;
         limits::within("albedo_contrast", self.albedo_contrast, 0.0, 1.0)?;
         limits::within("detail_wavelength_edges", self.detail_wavelength_edges, 0.01, 1000.0)?;
-        limits::within("detail_slope", self.detail_slope, 0.0, 2.0)
+        limits::within("detail_slope", self.detail_slope, 0.0, 2.0)?;
+        self.photometry.validate().map_err(|e| e.under("photometry"))
     }
 }
 

@@ -5,7 +5,7 @@ use super::{DescentConfig, DescentMotion, PolynomialGuidance};
 use crate::dataset::truth::{LanderState, Landmark};
 use crate::dataset::{CameraSensor, DesignatedPoint, ImuNoise, ImuSample, InitialState};
 use crate::geometry::Camera;
-use crate::scene::{Imager, SceneError, SensorConfig, Terrain, View};
+use crate::scene::{Imager, SceneError, SensorConfig, Terrain, View, sun_angular_radius_rad};
 use nalgebra::{Isometry3, Point3};
 
 /// A descent: the ground, the pictures to take, and what the lander measures and believes.
@@ -59,6 +59,7 @@ impl DescentScene {
             t_ns: *t_ns,
             reference_from_camera: motion.state(*t_ns).site_from_lander * lander_from_camera,
             sun_in_reference,
+            sun_angular_radius_rad: sun_angular_radius_rad(config.sun.distance_au),
         };
         let views: Vec<View> = times_ns.iter().map(view).collect();
         check_above_ground(&views, &terrain)?;

@@ -57,6 +57,7 @@ impl DescentConfig {
         self.imu.validate().map_err(|e| e.under("imu"))?;
         self.initial_error.validate().map_err(|e| e.under("initial_error"))?;
         self.sun.validate().map_err(|e| e.under("sun"))?;
+        self.terrain.photometry.validate().map_err(|e| e.under("photometry").under("terrain"))?;
         self.terrain.validate().map_err(|e| SceneError::from(e).under("terrain"))
     }
 }

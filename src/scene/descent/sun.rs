@@ -12,11 +12,14 @@ pub struct SunConfig {
     pub elevation_deg: f64,
     /// Direction on the ground in degrees from x over y (default 150).
     pub azimuth_deg: f64,
+    /// Distance to the Sun in astronomical units, which sets the size of its disc (default 1.52, that of Mars); 0 makes it a
+    /// point.
+    pub distance_au: f64,
 }
 
 impl Default for SunConfig {
     fn default() -> Self {
-        SunConfig { elevation_deg: 40.0, azimuth_deg: 150.0 }
+        SunConfig { elevation_deg: 40.0, azimuth_deg: 150.0, distance_au: 1.52 }
     }
 }
 
@@ -34,6 +37,7 @@ impl SunConfig {
     /// Names the first key outside its range.
     pub fn validate(&self) -> Result<(), SceneError> {
         limits::within("elevation_deg", self.elevation_deg, 0.0, 90.0)?;
-        limits::within("azimuth_deg", self.azimuth_deg, -360.0, 360.0)
+        limits::within("azimuth_deg", self.azimuth_deg, -360.0, 360.0)?;
+        limits::within("distance_au", self.distance_au, 0.0, 1e4)
     }
 }

@@ -5,7 +5,7 @@ use super::rigid_body::rows;
 use super::{RigidBody, Spin, TumblingConfig};
 use crate::dataset::CameraSensor;
 use crate::dataset::truth::{AsteroidInertia, AsteroidState, Landmark};
-use crate::scene::{Imager, SceneError, SensorConfig, SmallBody, View};
+use crate::scene::{Imager, SceneError, SensorConfig, SmallBody, View, sun_angular_radius_rad};
 use nalgebra::{Isometry3, Translation3, Unit, Vector2, Vector3};
 use std::path::Path;
 
@@ -51,7 +51,8 @@ impl TumblingScene {
         }
         let sun_in_camera = config.sun.sun_in_camera(&center_in_camera_m);
         let states = states(config, &rigid_body);
-        let views = states.iter().map(|state| view(state, &center_in_camera_m, &sun_in_camera)).collect();
+        let sun = (&sun_in_camera, sun_angular_radius_rad(config.sun.distance_au));
+        let views = states.iter().map(|state| view(state, &center_in_camera_m, sun)).collect();
         let rate_hz = Some(1.0 / config.interval_s);
         Ok(TumblingScene {
             views,
@@ -84,12 +85,17 @@ fn states(config: &TumblingConfig, body: &RigidBody) -> Vec<AsteroidState> {
 }
 
 /// A point p of the camera frame is A (p - c) in asteroid axes, with A the attitude and c the body's centre.
-fn view(state: &AsteroidState, center_in_camera_m: &Vector3<f64>, sun_in_camera: &Unit<Vector3<f64>>) -> View {
+fn view(
+    state: &AsteroidState,
+    center_in_camera_m: &Vector3<f64>,
+    (sun_in_camera, sun_angular_radius_rad): (&Unit<Vector3<f64>>, f64),
+) -> View {
     let attitude = state.asteroid_from_inertial;
     let camera_in_asteroid_m = -(attitude * center_in_camera_m);
     View {
         t_ns: state.t_ns,
         reference_from_camera: Isometry3::from_parts(Translation3::from(camera_in_asteroid_m), attitude),
         sun_in_reference: attitude * sun_in_camera,
+        sun_angular_radius_rad,
     }
 }

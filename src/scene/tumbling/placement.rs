@@ -13,11 +13,13 @@ pub struct PhaseConfig {
     pub phase_deg: f64,
     /// Direction in the picture that the light comes from, in degrees from right over up (default 135: upper left).
     pub azimuth_deg: f64,
+    /// Distance to the Sun in astronomical units, which sets the size of its disc (default 1); 0 makes it a point.
+    pub distance_au: f64,
 }
 
 impl Default for PhaseConfig {
     fn default() -> Self {
-        PhaseConfig { phase_deg: 35.0, azimuth_deg: 135.0 }
+        PhaseConfig { phase_deg: 35.0, azimuth_deg: 135.0, distance_au: 1.0 }
     }
 }
 
@@ -38,7 +40,8 @@ impl PhaseConfig {
     /// Names the first key outside its range.
     pub fn validate(&self) -> Result<(), SceneError> {
         limits::within("phase_deg", self.phase_deg, 0.0, 180.0)?;
-        limits::within("azimuth_deg", self.azimuth_deg, -360.0, 360.0)
+        limits::within("azimuth_deg", self.azimuth_deg, -360.0, 360.0)?;
+        limits::within("distance_au", self.distance_au, 0.0, 1e4)
     }
 }
 
