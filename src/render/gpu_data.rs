@@ -58,6 +58,7 @@ pub(super) struct Shading {
     pub sun: [f32; 4],
     pub intrinsics: [f32; 4],
     pub surface: [f32; 4],
+    pub shadow: [f32; 4],
     pub level: [f32; 4],
     pub counts: [u32; 4],
     pub photometry: Photometry,
@@ -123,7 +124,18 @@ mod tests {
         assert_layout!(
             shading,
             Shading,
-            [reference_from_camera, shadow_from_relative, sun, intrinsics, surface, level, counts, photometry, octaves]
+            [
+                reference_from_camera,
+                shadow_from_relative,
+                sun,
+                intrinsics,
+                surface,
+                shadow,
+                level,
+                counts,
+                photometry,
+                octaves
+            ]
         );
         assert!(shading.contains(&format!("OCTAVES: u32 = {OCTAVES}u")));
     }

@@ -18,6 +18,7 @@ mod photometry;
 mod projection;
 mod read_back;
 mod renderer;
+mod sample_grid;
 mod sensor;
 mod shading;
 mod shadow;

@@ -1,25 +1,7 @@
-//! From camera axes to clip space.
+//! The sides of the view.
 
 use crate::geometry::Camera;
-use nalgebra::{Matrix4, Vector3};
-
-/// Nearest depth in m that is drawn.
-pub(super) const NEAR_M: f64 = 0.005;
-
-/// Reversed, infinite projection: depth is `NEAR_M / z`. The target's sample centres lie at +0.5, ours at whole pixels:
-/// hence the half pixel, here and nowhere else on the CPU.
-pub(super) fn clip_from_camera(camera: &Camera) -> Matrix4<f64> {
-    let (width, height) = (f64::from(camera.width_px), f64::from(camera.height_px));
-    let (focal, center) = (camera.focal_px, camera.center_px.add_scalar(0.5));
-    #[rustfmt::skip]
-    let matrix = Matrix4::new(
-        2.0 * focal.x / width, 0.0, 2.0 * center.x / width - 1.0, 0.0,
-        0.0, -2.0 * focal.y / height, 1.0 - 2.0 * center.y / height, 0.0,
-        0.0, 0.0, 0.0, NEAR_M,
-        0.0, 0.0, 1.0, 0.0,
-    );
-    matrix
-}
+use nalgebra::Vector3;
 
 /// Inward normals of the four sides of the view, in camera axes.
 pub(super) fn side_planes_in_camera(camera: &Camera) -> [Vector3<f64>; 4] {

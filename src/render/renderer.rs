@@ -1,6 +1,7 @@
-//! One picture: shadow map, truth at pixel centres, supersampled picture, shading.
+//! One picture: shadow map, samples, shading.
 
 use super::geometry_pass::Role;
+use super::sample_grid::SampleGrid;
 use super::shading::ShadingPass;
 use super::shadow::ShadowMap;
 use super::surface::Surface;
@@ -26,8 +27,8 @@ pub struct Renderer {
     config: RenderConfig,
     surface: Surface,
     shadow_map: ShadowMap,
-    truth: SampleTarget,
-    picture: SampleTarget,
+    grid: SampleGrid,
+    samples: SampleTarget,
     shading: ShadingPass,
 }
 
@@ -44,27 +45,16 @@ impl Renderer {
         }
         let (width_px, height_px) = (camera.width_px, camera.height_px);
         let limit_px = gpu.device.limits().max_texture_dimension_2d;
-        let fits = |size_px: u32| size_px.checked_mul(config.supersampling).is_some_and(|s| s <= limit_px);
-        if !fits(width_px) || !fits(height_px) {
+        let grid = SampleGrid { stride: config.supersampling, size_px: (width_px, height_px) };
+        let Some(size) = grid.size().filter(|(width, height)| *width.max(height) <= limit_px) else {
             let supersampling = config.supersampling;
             return Err(RenderError::PictureTooLarge { width_px, height_px, supersampling, limit_px });
-        }
+        };
         let shadow_map = ShadowMap::new(gpu, config.shadow_map_px.min(limit_px));
-        let truth = SampleTarget::new(gpu, width_px, height_px);
-        let picture = SampleTarget::new(gpu, width_px * config.supersampling, height_px * config.supersampling);
+        let samples = SampleTarget::new(gpu, size);
         let surface = Surface::new(gpu, world)?;
-        let inputs = (&picture, &truth, &shadow_map);
-        let shading = ShadingPass::new(gpu, (width_px, height_px), surface.shading_entry(), inputs);
-        Ok(Renderer {
-            gpu: gpu.clone(),
-            camera: *camera,
-            config: *config,
-            surface,
-            shadow_map,
-            truth,
-            picture,
-            shading,
-        })
+        let shading = ShadingPass::new(gpu, grid.size_px, surface.shading_entry(), (&samples, &shadow_map));
+        Ok(Renderer { gpu: gpu.clone(), camera: *camera, config: *config, surface, shadow_map, grid, samples, shading })
     }
 
     /// Renders one view. The same view gives the same bytes on the same adapter, whatever was rendered before.
@@ -79,11 +69,11 @@ impl Renderer {
         if !numbers.copied().all(f64::is_finite) {
             return Err(RenderError::ViewNotFinite { t_ns: view.t_ns });
         }
-        let shading = self.surface.prepare(&self.gpu, view, (&self.camera, &self.config), &self.shadow_map)?;
+        let shading =
+            self.surface.prepare(&self.gpu, view, (&self.camera, &self.config), (&self.grid, &self.shadow_map))?;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.surface.draw(&mut self.shadow_map.begin(&mut encoder), Role::Shadow);
-        self.surface.draw(&mut self.truth.begin(&mut encoder), Role::Picture);
-        self.surface.draw(&mut self.picture.begin(&mut encoder), Role::Picture);
+        self.surface.draw(&mut self.samples.begin(&mut encoder), Role::Picture);
         self.shading.record(&self.gpu, &mut encoder, &shading);
         self.gpu.queue.submit([encoder.finish()]);
         self.shading.fetch(&self.gpu)

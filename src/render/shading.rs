@@ -29,20 +29,14 @@ pub(super) struct ShadingPass {
 
 impl ShadingPass {
     /// `entry` is the shader's entry point: `terrain` or `body`.
-    pub(super) fn new(
-        gpu: &Gpu,
-        size_px: (u32, u32),
-        entry: &str,
-        inputs: (&SampleTarget, &SampleTarget, &ShadowMap),
-    ) -> Self {
+    pub(super) fn new(gpu: &Gpu, size_px: (u32, u32), entry: &str, inputs: (&SampleTarget, &ShadowMap)) -> Self {
         let layout = group_layout(gpu);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniform = buffer(gpu, size_of::<Shading>() as u64, usage);
-        let (picture, truth, shadow) = inputs;
+        let (samples, shadow) = inputs;
         let entries = [
             uniform.as_entire_binding(),
-            wgpu::BindingResource::TextureView(&picture.samples),
-            wgpu::BindingResource::TextureView(&truth.samples),
+            wgpu::BindingResource::TextureView(&samples.samples),
             wgpu::BindingResource::TextureView(&shadow.view),
             wgpu::BindingResource::Sampler(&shadow.sampler),
         ];
@@ -111,9 +105,8 @@ fn group_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
         entries: &[
             uniform_entry(0, wgpu::ShaderStages::FRAGMENT),
             entry(1, samples),
-            entry(2, samples),
-            entry(3, image(wgpu::TextureSampleType::Depth)),
-            entry(4, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison)),
+            entry(2, image(wgpu::TextureSampleType::Depth)),
+            entry(3, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering)),
         ],
     })
 }

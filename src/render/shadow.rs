@@ -34,9 +34,6 @@ impl ShadowMap {
         });
         let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("shadow map"),
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            compare: Some(wgpu::CompareFunction::LessEqual),
             ..wgpu::SamplerDescriptor::default()
         });
         ShadowMap { view: texture.create_view(&wgpu::TextureViewDescriptor::default()), sampler, side_px }

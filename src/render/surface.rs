@@ -5,7 +5,7 @@ use super::geometry_pass::Role;
 use super::gpu_data::{Geometry, Shading, columns, dropped, four};
 use super::noise::octave_table;
 use super::photometry::photometry_data;
-use super::projection::clip_from_camera;
+use super::sample_grid::SampleGrid;
 use super::shadow::{ShadowBox, ShadowMap, shadow_axes, texture_from_clip};
 use super::terrain_geometry::TerrainGeometry;
 use super::terrain_levels::LevelRange;
@@ -78,7 +78,7 @@ impl Surface {
         gpu: &Gpu,
         view: &View,
         (camera, config): (&Camera, &RenderConfig),
-        shadow_map: &ShadowMap,
+        (grid, shadow_map): (&SampleGrid, &ShadowMap),
     ) -> Result<Shading, RenderError> {
         let placement = match &mut self.kind {
             Kind::Body(body) => place_body(body, view)?,
@@ -86,7 +86,7 @@ impl Surface {
         };
         let rotation = view.reference_from_camera.rotation.to_homogeneous();
         let shadow_clip = placement.covered.clip_from_relative(&shadow_axes(&view.sun_in_reference));
-        let picture_clip = clip_from_camera(camera) * rotation.transpose();
+        let picture_clip = grid.clip_from_camera(camera) * rotation.transpose();
         self.set_geometry(gpu, Role::Picture, &placement.geometry(view, &picture_clip));
         self.set_geometry(gpu, Role::Shadow, &placement.geometry(view, &shadow_clip));
 
@@ -100,9 +100,10 @@ impl Surface {
             sun: four(&view.sun_in_reference, self.sky_light),
             intrinsics: [camera.focal_px.x, camera.focal_px.y, camera.center_px.x, camera.center_px.y]
                 .map(|v| v as f32),
-            surface: [self.mean_albedo, 0.0, self.detail_slope, texel_m].map(|v| v as f32),
+            surface: [self.mean_albedo, 0.0, self.detail_slope, 0.0].map(|v| v as f32),
+            shadow: [texel_m, texel_m, 2.0 * placement.covered.half_depth_m, 0.0].map(|v| v as f32),
             level: placement.level(),
-            counts: [config.supersampling, count, 0, 0],
+            counts: [grid.taps(), grid.stride, count, 0],
             photometry: photometry_data(&self.photometry),
             octaves,
         })

@@ -11,10 +11,9 @@ pub(super) struct SampleTarget {
 }
 
 impl SampleTarget {
-    pub(super) fn new(gpu: &Gpu, width_px: u32, height_px: u32) -> Self {
-        let make = |format, usage| {
-            texture(gpu, (width_px, height_px), format, usage).create_view(&wgpu::TextureViewDescriptor::default())
-        };
+    pub(super) fn new(gpu: &Gpu, size: (u32, u32)) -> Self {
+        let make =
+            |format, usage| texture(gpu, size, format, usage).create_view(&wgpu::TextureViewDescriptor::default());
         SampleTarget {
             samples: make(SAMPLE_FORMAT, wgpu::TextureUsages::TEXTURE_BINDING),
             depth: make(DEPTH_FORMAT, wgpu::TextureUsages::empty()),
