@@ -1,6 +1,7 @@
 //! Tests of the room `scene`.
 
 mod bodies;
+mod body_formats;
 mod cameras;
 mod descent;
 mod meshes;

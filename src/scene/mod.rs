@@ -28,7 +28,10 @@ mod terrain_scatter;
 mod tumbling;
 mod view;
 
-pub use body::{BodySource, BodySurface, MassProperties, Mesh, MeshFile, ProceduralBody, SmallBody, SurfaceConfig};
+pub use body::{
+    AlbedoImage, AlbedoMapFile, BodySource, BodySurface, GlobeMap, LengthUnit, MassProperties, Mesh, MeshAlbedo,
+    MeshFile, PictureEdge, ProceduralBody, SmallBody, SurfaceConfig,
+};
 pub use camera_config::{CameraConfig, DistortionConfig, DistortionModel};
 pub use crater::{CraterClass, FeatureSample};
 pub use descent::{

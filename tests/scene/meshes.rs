@@ -18,12 +18,12 @@ fn written(text: &str) -> (tempfile::TempDir, PathBuf) {
 
 fn read(text: &str) -> Mesh {
     let (_folder, path) = written(text);
-    Mesh::read_obj(&path, 1.0).unwrap()
+    Mesh::read(&path, 1.0).unwrap()
 }
 
 fn error(text: &str) -> String {
     let (_folder, path) = written(text);
-    let error = Mesh::read_obj(&path, 1.0).unwrap_err().to_string();
+    let error = Mesh::read(&path, 1.0).unwrap_err().to_string();
     assert!(error.contains("shape.obj"), "{error}");
     error
 }
@@ -79,7 +79,7 @@ fn icosphere_is_closed_and_has_the_stated_size() {
 fn real_bodies_have_their_published_volume_and_inertia() {
     let known = [("itokawa", 0.0178, [0.281, 0.951]), ("bennu", 0.0616, [0.852, 0.881])];
     for (name, volume_km3, ratios) in known {
-        let mesh = Mesh::read_obj(&datasets().join(format!("shapes/{name}.obj")), 1000.0).unwrap();
+        let mesh = Mesh::read(&datasets().join(format!("shapes/{name}.obj")), 1000.0).unwrap();
         assert_eq!((mesh.vertices_m.len(), mesh.faces.len()), (24_578, 49_152), "{name}");
         let found = mesh.mass_properties().unwrap();
         assert!((found.volume_m3 * 1e-9 - volume_km3).abs() < 0.5e-4, "{name}: {}", found.volume_m3);
@@ -111,7 +111,7 @@ fn groups_normals_and_polygons_make_one_closed_mesh() {
 
 #[test]
 fn bad_files_name_file_line_and_fault() {
-    let missing = Mesh::read_obj(&datasets().join("none.obj"), 1.0).unwrap_err().to_string();
+    let missing = Mesh::read(&datasets().join("none.obj"), 1.0).unwrap_err().to_string();
     assert!(missing.contains("none.obj"), "{missing}");
     let cases = [
         ("", "line 1", "without a face"),
@@ -133,7 +133,7 @@ fn bad_files_name_file_line_and_fault() {
     }
     let (_folder, path) = written(BOX);
     for scale in [0.0, -1.0, f64::NAN] {
-        let error = Mesh::read_obj(&path, scale).unwrap_err().to_string();
+        let error = Mesh::read(&path, scale).unwrap_err().to_string();
         assert!(error.contains("shape.obj") && error.contains("metres_per_unit"), "{error}");
     }
 }

@@ -39,7 +39,7 @@ fn resolved_copy_has_every_key_and_reads_back_equal() {
         "seed = 9\n[sensor.exposure.fixed]\nelectrons_per_radiance = 1e5\n[descent.schedule.constant-scale]\ncount = 9\n\
          [descent.guidance.profile.quintic]\ninitial_acceleration_m_s2 = [0.1, 0.2, 1]\n"
             .to_string(),
-        "[tumbling]\ninertia = \"from-shape\"\n[tumbling.shape.mesh]\npath = \"a b.obj\"\n".to_string(),
+        "[tumbling]\ninertia = \"from-shape\"\n[tumbling.shape.mesh]\npath = \"a b.obj\"\nunit = \"km\"\n".to_string(),
     ] {
         let first = scenario(&text).unwrap();
         assert_eq!(first, scenario(&first.to_toml()).unwrap(), "{}", first.to_toml());
@@ -87,7 +87,7 @@ fn overrides_follow_toml_types_and_make_missing_tables() {
     let found = with(TUMBLING, &["tumbling.rate_deg_s=[1, 2, 3.5]", "tumbling.inertia=from-shape"]).unwrap();
     let Mission::Tumbling(tumbling) = found.mission else { panic!("not a tumbling body") };
     assert_eq!(tumbling.rate_deg_s, [1.0, 2.0, 3.5]);
-    let found = with(TUMBLING, &["tumbling.shape={mesh={path=\"x.obj\"}}"]).unwrap();
+    let found = with(TUMBLING, &["tumbling.shape={mesh={path=\"x.obj\", unit=\"m\"}}"]).unwrap();
     assert!(found.to_toml().contains("x.obj"));
 }
 
@@ -170,6 +170,12 @@ fn impossible_values_are_refused_with_their_key() {
         ("[tumbling.surface]\nalbedo = 0", "tumbling.surface.albedo"),
         ("[tumbling.shape.procedural]\nsemi_axes_m = [1, 0, 1]", "tumbling.shape.procedural.semi_axes_m"),
         ("[tumbling.shape.mesh]\npath = \"x\"\nmetres_per_unit = 0", "tumbling.shape.mesh.metres_per_unit"),
+        ("[tumbling.shape.mesh]\npath = \"x\"", "tumbling.shape.mesh.unit"),
+        ("[tumbling.shape.mesh]\npath = \"x\"\nunit = \"m\"\nmetres_per_unit = 1", "tumbling.shape.mesh.unit"),
+        (
+            "[tumbling.surface.albedo_map]\npath = \"x\"\nwest_edge_deg = 999",
+            "tumbling.surface.albedo_map.west_edge_deg",
+        ),
     ];
     for (text, key) in cases {
         let error = with(text, &[]).unwrap_err();
@@ -191,12 +197,12 @@ fn one_mission_it_must_be() {
 
 #[test]
 fn shapes_are_found_from_the_scenarios_folder_and_their_faults_named() {
-    let missing = scenario("[tumbling.shape.mesh]\npath = \"shapes/none.obj\"").unwrap();
+    let missing = scenario("[tumbling.shape.mesh]\npath = \"shapes/none.obj\"\nunit = \"km\"").unwrap();
     let error = missing.build(datasets()).unwrap_err().to_string();
     assert!(error.contains("datasets/shapes/none.obj"), "{error}");
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("open.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n").unwrap();
-    let open = scenario("[tumbling.shape.mesh]\npath = \"open.obj\"").unwrap();
+    let open = scenario("[tumbling.shape.mesh]\npath = \"open.obj\"\nunit = \"m\"").unwrap();
     let error = open.build(folder.path()).unwrap_err().to_string();
     assert!(error.contains("open.obj") && error.contains("is open"), "{error}");
 }

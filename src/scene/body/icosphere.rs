@@ -38,7 +38,11 @@ fn icosahedron() -> Mesh {
         [7, 1, 8], [3, 9, 4], [3, 4, 2], [3, 2, 6], [3, 6, 8], [3, 8, 9], [4, 9, 5], [2, 4, 11], [6, 2, 10],
         [8, 6, 7], [9, 8, 1],
     ];
-    Mesh { vertices_m: corners.iter().map(|(x, y, z)| Vector3::new(*x, *y, *z).normalize()).collect(), faces }
+    Mesh {
+        vertices_m: corners.iter().map(|(x, y, z)| Vector3::new(*x, *y, *z).normalize()).collect(),
+        faces,
+        ..Mesh::default()
+    }
 }
 
 fn quartered(mesh: &Mesh) -> Mesh {
@@ -55,5 +59,5 @@ fn quartered(mesh: &Mesh) -> Mesh {
         let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
         faces.extend([[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]);
     }
-    Mesh { vertices_m, faces }
+    Mesh { vertices_m, faces, ..Mesh::default() }
 }

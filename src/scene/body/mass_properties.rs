@@ -8,6 +8,8 @@
 use super::Mesh;
 use crate::scene::SceneError;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use rayon::prelude::*;
+use std::iter::Sum;
 
 /// Mass properties at a density of 1 kg/m³.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,16 +45,7 @@ impl Mesh {
         self.check_closed()?;
         // About a point near the body, so that a far origin costs no digits.
         let near_m = self.vertices_m.iter().sum::<Vector3<f64>>() / self.vertices_m.len().max(1) as f64;
-        let (mut volume, mut first, mut second) = (0.0, Vector3::zeros(), Matrix3::zeros());
-        for face in &self.faces {
-            let [a, b, c] = self.corners_m(face).map(|corner| corner - near_m);
-            let tetrahedron = a.dot(&b.cross(&c)) / 6.0;
-            let s = a + b + c;
-            let squares = s * s.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose();
-            volume += tetrahedron;
-            first += s * (tetrahedron / 4.0);
-            second += squares * (tetrahedron / 20.0);
-        }
+        let Moments { volume, first, second } = self.moments_about(&near_m);
         if volume.is_nan() || volume <= 0.0 {
             let problem = format!("encloses a volume of {volume} m³: it is inside out; reverse its faces");
             return Err(SceneError::NotSolid { problem });
@@ -61,5 +54,41 @@ impl Mesh {
         let about_center = second - center * center.transpose() * volume;
         let inertia_m5 = Matrix3::identity() * about_center.trace() - about_center;
         Ok(MassProperties { volume_m3: volume, center_m: near_m + center, inertia_m5 })
+    }
+
+    /// Fixed pieces are summed in order, so that the sum does not depend on the number of threads.
+    fn moments_about(&self, near_m: &Vector3<f64>) -> Moments {
+        let of_faces = |faces: &[[u32; 3]]| {
+            faces.iter().map(|face| Moments::of(self.corners_m(face).map(|corner| corner - near_m))).sum::<Moments>()
+        };
+        self.faces.par_chunks(4096).map(of_faces).collect::<Vec<_>>().into_iter().sum()
+    }
+}
+
+/// Volume and its first and second moments.
+struct Moments {
+    volume: f64,
+    first: Vector3<f64>,
+    second: Matrix3<f64>,
+}
+
+impl Moments {
+    /// Of the tetrahedron over a face.
+    fn of([a, b, c]: [Vector3<f64>; 3]) -> Self {
+        let volume = a.dot(&b.cross(&c)) / 6.0;
+        let s = a + b + c;
+        let squares = s * s.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose();
+        Moments { volume, first: s * (volume / 4.0), second: squares * (volume / 20.0) }
+    }
+}
+
+impl Sum for Moments {
+    fn sum<I: Iterator<Item = Moments>>(parts: I) -> Self {
+        let zero = Moments { volume: 0.0, first: Vector3::zeros(), second: Matrix3::zeros() };
+        parts.fold(zero, |all, part| Moments {
+            volume: all.volume + part.volume,
+            first: all.first + part.first,
+            second: all.second + part.second,
+        })
     }
 }

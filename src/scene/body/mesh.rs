@@ -1,6 +1,8 @@
 //! Triangle meshes.
 
+use super::MeshAlbedo;
 use nalgebra::Vector3;
+use rayon::prelude::*;
 
 /// A triangle mesh; faces run counter-clockwise seen from outside.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -9,6 +11,8 @@ pub struct Mesh {
     pub vertices_m: Vec<Vector3<f64>>,
     /// Three vertex numbers a face.
     pub faces: Vec<[u32; 3]>,
+    /// Albedo over the surface's mean (default: the same everywhere).
+    pub albedo: MeshAlbedo,
 }
 
 impl Mesh {
@@ -33,7 +37,7 @@ impl Mesh {
             let longest = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared());
             self.face_area_m2(face) <= 1e-12 * longest
         };
-        self.faces.iter().enumerate().filter(|(_, face)| is_flat(face)).map(|(index, _)| index).collect()
+        self.faces.par_iter().enumerate().filter(|(_, face)| is_flat(face)).map(|(index, _)| index).collect()
     }
 
     /// Mean length of the faces' edges in m; 0 for a mesh without faces.
@@ -50,10 +54,21 @@ impl Mesh {
         self.vertices_m.iter().map(|v| v.norm()).fold(0.0, f64::max)
     }
 
+    /// Centre and radius in m of a sphere around the mesh: about the middle of its bounding box.
+    pub fn bounding_sphere(&self) -> (Vector3<f64>, f64) {
+        let low = self.vertices_m.iter().fold(Vector3::repeat(f64::INFINITY), |low, v| low.inf(v));
+        let high = self.vertices_m.iter().fold(Vector3::repeat(f64::NEG_INFINITY), |high, v| high.sup(v));
+        let center_m = 0.5 * (low + high);
+        (center_m, self.vertices_m.iter().map(|v| (v - center_m).norm()).fold(0.0, f64::max))
+    }
+
     /// The mesh moved by `shift_m`.
     pub fn translated(mut self, shift_m: &Vector3<f64>) -> Self {
         for vertex in &mut self.vertices_m {
             *vertex += shift_m;
+        }
+        if let MeshAlbedo::Globe(map) = &mut self.albedo {
+            map.origin_m += shift_m;
         }
         self
     }

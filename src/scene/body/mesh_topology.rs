@@ -2,7 +2,7 @@
 
 use super::Mesh;
 use crate::scene::SceneError;
-use std::collections::HashMap;
+use rayon::prelude::*;
 
 impl Mesh {
     /// Checks that every edge joins exactly two faces which run through it in opposite directions.
@@ -11,17 +11,15 @@ impl Mesh {
     /// [`SceneError::NotSolid`] counts the edges at fault and says whether the mesh has holes, flipped faces or edges
     /// with more than two faces.
     pub fn check_closed(&self) -> Result<(), SceneError> {
-        let mut runs: HashMap<(u32, u32), (u32, u32)> = HashMap::with_capacity(self.faces.len() * 2);
-        for &[a, b, c] in &self.faces {
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                let (forward, backward) = runs.entry((from.min(to), from.max(to))).or_default();
-                *(if from < to { forward } else { backward }) += 1;
+        let (mut open, mut flipped, mut crowded) = (0, 0, 0);
+        for runs in self.sorted_edges().chunk_by(|a, b| a[..2] == b[..2]) {
+            match runs {
+                [_] => open += 1,
+                [one, other] if one[2] == other[2] => flipped += 1,
+                [_, _] => {}
+                _ => crowded += 1,
             }
         }
-        let count = |fault: fn(u32, u32) -> bool| runs.values().filter(|(f, b)| fault(*f, *b)).count();
-        let open = count(|f, b| f + b == 1);
-        let flipped = count(|f, b| f + b == 2 && f != b);
-        let crowded = count(|f, b| f + b > 2);
         let problem = if open > 0 {
             format!("is open: {open} edges have one face only; close its holes")
         } else if flipped > 0 {
@@ -32,5 +30,15 @@ impl Mesh {
             return Ok(());
         };
         Err(SceneError::NotSolid { problem })
+    }
+
+    /// Every face's run through its three edges: lower vertex, higher vertex, and whether it runs downwards (1) or
+    /// upwards (0). Runs through one edge are neighbours.
+    fn sorted_edges(&self) -> Vec<[u32; 3]> {
+        let run = |from: u32, to: u32| [from.min(to), from.max(to), u32::from(from > to)];
+        let mut runs: Vec<[u32; 3]> =
+            self.faces.par_iter().flat_map_iter(|&[a, b, c]| [run(a, b), run(b, c), run(c, a)]).collect();
+        runs.par_sort_unstable();
+        runs
     }
 }

@@ -4,22 +4,34 @@
 //! file ([`MeshFile`]) or a seed ([`ProceduralBody`]). [`MassProperties`] are exact for the polyhedron. [`SmallBody`] is
 //! the mesh with its [`BodySurface`], ready to be drawn.
 
+mod albedo_image;
+mod albedo_map;
 mod crater;
 mod icosphere;
 mod mass_properties;
 mod mesh;
+mod mesh_albedo;
+mod mesh_file;
 mod mesh_landmarks;
 mod mesh_topology;
 mod obj;
+mod ply;
 mod procedural;
 mod relief;
+mod shape_file;
 mod source;
+mod stl;
 mod surface;
+mod welder;
 
 pub(super) use mass_properties::principal_moments;
 
+pub use albedo_image::{AlbedoImage, PictureEdge};
+pub use albedo_map::AlbedoMapFile;
 pub use mass_properties::MassProperties;
 pub use mesh::Mesh;
+pub use mesh_albedo::{GlobeMap, MeshAlbedo};
+pub use mesh_file::{LengthUnit, MeshFile};
 pub use procedural::ProceduralBody;
-pub use source::{BodySource, MeshFile};
+pub use source::BodySource;
 pub use surface::{BodySurface, SmallBody, SurfaceConfig};

@@ -1,46 +1,24 @@
 //! Meshes from Wavefront OBJ files.
 
-use super::Mesh;
-use crate::scene::{SceneError, limits};
+use super::shape_file::{ShapeFault, ShapeFile};
+use super::welder::Welder;
 use nalgebra::Vector3;
-use std::collections::HashMap;
 use std::path::Path;
 
-impl Mesh {
-    /// Reads an OBJ file. All groups make one mesh, polygons are cut into triangles, and vertices at one place become
-    /// one; normals, textures and materials are left out.
-    ///
-    /// # Errors
-    /// Names the file, and the line where there is one, of: a missing file, a line cut short, a coordinate that is not
-    /// a finite number, a face that names a vertex that is not there, no faces at all, faces of zero area.
-    pub fn read_obj(path: &Path, metres_per_unit: f64) -> Result<Mesh, SceneError> {
-        limits::positive("metres_per_unit", metres_per_unit).map_err(|e| e.in_file(path))?;
-        let text = std::fs::read_to_string(path).map_err(|source| SceneError::Io {
-            action: "read the shape",
-            path: path.into(),
-            source,
-        })?;
-        check_lines(&text).map_err(|(line, problem)| SceneError::Malformed {
-            path: path.into(),
-            line: line as u64,
-            problem,
-        })?;
-        let unusable = |problem: String| SceneError::Unusable { path: path.into(), problem };
-        let options = tobj::LoadOptions { triangulate: true, ..Default::default() };
-        let no_material = |_: &Path| Ok((Vec::new(), Default::default()));
-        let (models, _) =
-            tobj::load_obj_buf(&mut text.as_bytes(), &options, no_material).map_err(|e| unusable(e.to_string()))?;
-        let mesh = joined(&models, metres_per_unit);
-        if let flat @ [first, ..] = mesh.zero_area_faces().as_slice() {
-            let problem = format!(
-                "{} faces have no area, the first is face {}: remove them with a mesh editor",
-                flat.len(),
-                first + 1
-            );
-            return Err(unusable(problem));
-        }
-        Ok(mesh)
-    }
+/// Reads a file. All groups make one mesh; normals and materials are left out, texture coordinates are kept if every
+/// face has them.
+pub(super) fn read(content: &[u8], metres_per_unit: f64) -> Result<ShapeFile, ShapeFault> {
+    let text = std::str::from_utf8(content).map_err(|e| {
+        let line = 1 + content[..e.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
+        ShapeFault::Line(line, "it is no text: is the file damaged?".into())
+    })?;
+    check_lines(text).map_err(|(line, problem)| ShapeFault::Line(line, problem))?;
+    let options =
+        tobj::LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..Default::default() };
+    let no_material = |_: &Path| Ok((Vec::new(), Default::default()));
+    let mut bytes = content;
+    let (models, _) = tobj::load_obj_buf(&mut bytes, &options, no_material).map_err(|e| e.to_string())?;
+    joined(&models, metres_per_unit)
 }
 
 /// Checks vertices and faces line by line; the error is a line number from 1 and what is wrong there.
@@ -53,13 +31,11 @@ fn check_lines(text: &str) -> Result<(), (usize, String)> {
         let mut fields = line.split_whitespace();
         match fields.next() {
             Some("v") => {
-                check_vertex(&fields.collect::<Vec<_>>()).map_err(fault)?;
+                check_vertex(fields).map_err(fault)?;
                 vertices += 1;
             }
             Some("f") => {
-                let numbers = face_numbers(&fields.collect::<Vec<_>>(), vertices).map_err(fault)?;
-                let largest = numbers.into_iter().max().unwrap_or(0);
-                highest = highest.max((largest, index + 1));
+                highest = highest.max((largest_number(fields, vertices).map_err(fault)?, index + 1));
                 faces += 1;
             }
             _ => {}
@@ -74,52 +50,55 @@ fn check_lines(text: &str) -> Result<(), (usize, String)> {
     Ok(())
 }
 
-fn check_vertex(fields: &[&str]) -> Result<(), String> {
-    if fields.len() < 3 {
-        return Err(format!("a vertex has {} coordinates instead of 3: is the file cut short?", fields.len()));
-    }
-    for field in &fields[..3] {
+fn check_vertex<'a>(fields: impl Iterator<Item = &'a str>) -> Result<(), String> {
+    let mut count = 0;
+    for field in fields.take(3) {
         match field.parse::<f64>() {
-            Ok(value) if value.is_finite() => {}
+            Ok(value) if value.is_finite() => count += 1,
             _ => return Err(format!("the coordinate '{field}' is not a finite number")),
         }
     }
-    Ok(())
+    match count {
+        3 => Ok(()),
+        _ => Err(format!("a vertex has {count} coordinates instead of 3: is the file cut short?")),
+    }
 }
 
-/// Vertex numbers of a face from 1; negative ones in the file count back from the last vertex so far.
-fn face_numbers(fields: &[&str], vertices: i64) -> Result<Vec<i64>, String> {
-    if fields.len() < 3 {
-        return Err(format!("a face has {} corners, and 3 are needed: is the file cut short?", fields.len()));
-    }
-    let number = |field: &&str| {
+/// Largest vertex number of a face, from 1; negative ones in the file count back from the last vertex so far.
+fn largest_number<'a>(fields: impl Iterator<Item = &'a str>, vertices: i64) -> Result<i64, String> {
+    let (mut count, mut largest) = (0, 0);
+    for field in fields {
         let text = field.split('/').next().unwrap_or_default();
         let number = text.parse::<i64>().map_err(|_| format!("'{field}' is not a corner of a face"))?;
         let absolute = if number < 0 { vertices.saturating_add(number).saturating_add(1) } else { number };
         if absolute < 1 {
             return Err(format!("a face names vertex {number}, which does not exist: numbers start from 1"));
         }
-        Ok(absolute)
-    };
-    fields.iter().map(number).collect()
+        largest = largest.max(absolute);
+        count += 1;
+    }
+    match count {
+        0..3 => Err(format!("a face has {count} corners, and 3 are needed: is the file cut short?")),
+        _ => Ok(largest),
+    }
 }
 
-/// All models in one mesh, with one vertex a place.
-fn joined(models: &[tobj::Model], metres_per_unit: f64) -> Mesh {
-    let mut mesh = Mesh::default();
-    let mut number_at: HashMap<[u64; 3], u32> = HashMap::new();
-    for model in models {
-        let vertex = |position: &[f64]| {
-            let point = Vector3::from_column_slice(position) * metres_per_unit;
-            let place = [point.x, point.y, point.z].map(|c| (c + 0.0).to_bits()); // + 0.0 makes -0 and 0 one place
-            *number_at.entry(place).or_insert_with(|| {
-                mesh.vertices_m.push(point);
-                (mesh.vertices_m.len() - 1) as u32
-            })
-        };
-        let numbers: Vec<u32> = model.mesh.positions.chunks_exact(3).map(vertex).collect();
-        let corners = model.mesh.indices.chunks_exact(3);
-        mesh.faces.extend(corners.map(|c| [c[0], c[1], c[2]].map(|i| numbers[i as usize])));
+/// All models in one mesh.
+fn joined(models: &[tobj::Model], metres_per_unit: f64) -> Result<ShapeFile, ShapeFault> {
+    let mut welder = Welder::default();
+    let mut texture_corners = Vec::new();
+    for tobj::Model { mesh, .. } in models {
+        let vertex = |position: &[f64]| welder.vertex(Vector3::from_column_slice(position) * metres_per_unit).0;
+        let numbers: Vec<u32> = mesh.positions.chunks_exact(3).map(vertex).collect();
+        let corners = mesh.indices.chunks_exact(3);
+        welder.mesh.faces.extend(corners.map(|c| [c[0], c[1], c[2]].map(|i| numbers[i as usize])));
+        let textures = mesh.texcoord_indices.chunks_exact(3);
+        let texture = |i: u32| [0, 1].map(|axis| mesh.texcoords[2 * i as usize + axis] as f32);
+        texture_corners.extend(textures.map(|c| [c[0], c[1], c[2]].map(texture)));
     }
-    mesh
+    if !texture_corners.iter().flatten().flatten().all(|c| c.is_finite()) {
+        return Err(ShapeFault::Whole("a texture coordinate (vt) is not a finite number".into()));
+    }
+    let complete = texture_corners.len() == welder.mesh.faces.len();
+    Ok(ShapeFile { mesh: welder.mesh, texture_corners: complete.then_some(texture_corners) })
 }

@@ -1,24 +1,9 @@
 //! Where a small body's shape comes from.
 
-use super::{MassProperties, Mesh, ProceduralBody};
-use crate::scene::{SceneError, limits};
+use super::{AlbedoMapFile, MassProperties, Mesh, MeshFile, ProceduralBody};
+use crate::scene::SceneError;
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
-
-/// A shape file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct MeshFile {
-    /// OBJ file; a relative path starts at the folder of the scenario file.
-    pub path: PathBuf,
-    /// Metres in one unit of the file (default 1; 1000 for a file in kilometres).
-    #[serde(default = "one")]
-    pub metres_per_unit: f64,
-}
-
-fn one() -> f64 {
-    1.0
-}
+use std::path::Path;
 
 /// Shape of a small body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -37,26 +22,35 @@ impl Default for BodySource {
 }
 
 impl BodySource {
-    /// The mesh with its centre of mass at the origin, and its mass properties there.
+    /// The mesh with its centre of mass at the origin, and its mass properties there; the map is laid on, if there is one.
     ///
     /// # Errors
-    /// Names the shape file and what is wrong with it.
-    pub fn centered_mesh(&self, base_folder: &Path, seed: u64) -> Result<(Mesh, MassProperties), SceneError> {
-        let (mesh, found) = match self {
+    /// Names the shape file or the picture and what is wrong with it.
+    pub fn centered_mesh(
+        &self,
+        albedo_map: Option<&AlbedoMapFile>,
+        base_folder: &Path,
+        seed: u64,
+    ) -> Result<(Mesh, MassProperties), SceneError> {
+        let (mut mesh, found) = match self {
             BodySource::Procedural(body) => {
                 let mesh = body.mesh(seed);
                 let found = mesh.mass_properties()?;
                 (mesh, found)
             }
             BodySource::Mesh(file) => {
+                let mesh = file.read(base_folder)?;
                 let path = base_folder.join(&file.path);
-                let mesh = Mesh::read_obj(&path, file.metres_per_unit)?;
                 let found = mesh.mass_properties().map_err(|e| e.in_file(&path))?;
+                file.check_size(&mesh).map_err(|e| e.under("shape").in_file(&path))?;
                 (mesh, found)
             }
         };
+        if let Some(map) = albedo_map {
+            map.lay_on(&mut mesh, base_folder)?;
+        }
         let at_origin = MassProperties { center_m: nalgebra::Vector3::zeros(), ..found };
-        Ok((mesh.translated(&-found.center_m), at_origin))
+        Ok((mesh.with_mean_albedo_1().translated(&-found.center_m), at_origin))
     }
 
     /// Checks every setting's range.
@@ -66,7 +60,7 @@ impl BodySource {
     pub fn validate(&self) -> Result<(), SceneError> {
         match self {
             BodySource::Procedural(body) => body.validate().map_err(|e| e.under("procedural")),
-            BodySource::Mesh(file) => limits::positive("mesh.metres_per_unit", file.metres_per_unit),
+            BodySource::Mesh(file) => file.scale_m().map(|_| ()),
         }
     }
 }

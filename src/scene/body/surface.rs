@@ -1,6 +1,6 @@
 //! A small body: its shape and how its surface looks.
 
-use super::Mesh;
+use super::{AlbedoMapFile, Mesh};
 use crate::scene::{Photometry, SceneError, limits};
 use serde::{Deserialize, Serialize};
 
@@ -36,11 +36,16 @@ impl Default for BodySurface {
 }
 
 /// The surface of any body, whatever its size: the largest wavelength of the detail follows from the mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SurfaceConfig {
     /// Mean albedo, 0 to 1 (default 0.12).
     pub albedo: f64,
+    /// Map of the albedo over the body, instead of what the shape file carries; its mean becomes `albedo` (default none).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub albedo_map: Option<AlbedoMapFile>,
+    /// Whether there is detail below the mesh's resolution, in slopes and albedo (default true).
+    pub detail: bool,
     /// Relative r.m.s. variation of the albedo, per octave of detail (default 0.06).
     pub albedo_contrast: f64,
     /// Largest wavelength of the detail, in mean edges of the mesh (default 12).
@@ -56,6 +61,8 @@ impl Default for SurfaceConfig {
         let surface = BodySurface::default();
         SurfaceConfig {
             albedo: surface.albedo,
+            albedo_map: None,
+            detail: true,
             albedo_contrast: surface.albedo_contrast,
             detail_wavelength_edges: 12.0,
             detail_slope: surface.detail_slope,
@@ -67,13 +74,14 @@ impl Default for SurfaceConfig {
 impl SurfaceConfig {
     /// The surface of a body with this mesh.
     pub fn on(&self, mesh: &Mesh, seed: u64) -> BodySurface {
+        let strength = if self.detail { 1.0 } else { 0.0 };
         BodySurface {
             seed,
             albedo: self.albedo,
             photometry: self.photometry,
-            albedo_contrast: self.albedo_contrast,
-            detail_wavelength_m: self.detail_wavelength_edges * mesh.mean_edge_m(),
-            detail_slope: self.detail_slope,
+            albedo_contrast: strength * self.albedo_contrast,
+            detail_wavelength_m: strength * self.detail_wavelength_edges * mesh.mean_edge_m(),
+            detail_slope: strength * self.detail_slope,
         }
     }
 
@@ -83,6 +91,9 @@ impl SurfaceConfig {
     /// Names the first key outside its range.
     pub fn validate(&self) -> Result<(), SceneError> {
         limits::within("albedo", self.albedo, 0.001, 1.0)?;
+        if let Some(map) = &self.albedo_map {
+            map.validate().map_err(|e| e.under("albedo_map"))?;
+        }
         limits::within("albedo_contrast", self.albedo_contrast, 0.0, 1.0)?;
         limits::within("detail_wavelength_edges", self.detail_wavelength_edges, 0.01, 1000.0)?;
         limits::within("detail_slope", self.detail_slope, 0.0, 2.0)?;

@@ -41,7 +41,7 @@ impl TumblingScene {
         seed: u64,
         base_folder: &Path,
     ) -> Result<TumblingScene, SceneError> {
-        let (mesh, shape) = config.shape.centered_mesh(base_folder, seed)?;
+        let (mesh, shape) = config.shape.centered_mesh(config.surface.albedo_map.as_ref(), base_folder, seed)?;
         let rigid_body = config.inertia.rigid_body(&shape)?;
         let offset_px = Vector2::from(config.center_offset_px);
         let center_in_camera_m = center_in_camera_m(&imager.camera, mesh.radius_m(), config.fill_fraction, &offset_px);
