@@ -4,7 +4,7 @@ use image::{DynamicImage, GrayImage, ImageBuffer, Luma};
 use nalgebra::{Isometry3, Matrix2, Translation3, UnitQuaternion, Vector2, Vector3};
 use opnav::dataset::truth::{
     AsteroidInertia, AsteroidState, LanderState, Landmark, LandmarkObservation, read_asteroid, read_lander_states,
-    write_asteroid, write_lander_states, write_landmarks,
+    read_landmarks, read_observations, write_asteroid, write_lander_states, write_landmarks, write_observations,
 };
 use opnav::dataset::*;
 use opnav::geometry::{Camera, Distortion};
@@ -165,7 +165,10 @@ fn landmark_files_have_the_promised_columns() {
     let landmark = Landmark { id: 4, position_m: Vector3::new(1.0, 2.5, -3.0) };
     let seen = LandmarkObservation { t_ns: 9, camera: 0, id: 4, pixel_px: Vector2::new(10.5, 20.25), visible: true };
     let hidden = LandmarkObservation { visible: false, ..seen };
-    write_landmarks(dir.path(), &[landmark], &[seen, hidden]).expect("write");
+    write_landmarks(dir.path(), &[landmark]).expect("write");
+    write_observations(dir.path(), None, &[seen, hidden]).expect("write");
+    assert_eq!(read_landmarks(dir.path()).expect("read"), [landmark]);
+    assert_eq!(read_observations(dir.path(), None).expect("read"), [seen, hidden]);
     let text = |name: &str| fs::read_to_string(dir.path().join(name)).expect("written");
     assert_eq!(text("truth/landmarks.csv"), "id,x_m,y_m,z_m\n4,1,2.5,-3\n");
     assert_eq!(
@@ -229,7 +232,8 @@ fn the_manifest_knows_every_file_but_itself() {
     put(dir.path(), "cam0/data.csv", "abc");
     put(dir.path(), "scenario.toml", "");
     for _ in 0..2 {
-        write_manifest(dir.path(), "llvmpipe", 3, &["cam0"]).expect("write");
+        let manifest = Manifest::new("llvmpipe", 3, &[CameraId::single(0)]);
+        write_manifest(dir.path(), manifest, &Checksums::new()).expect("write");
         let manifest = read_manifest(dir.path()).expect("read");
         assert_eq!((manifest.frame_count, manifest.adapter.as_str()), (3, "llvmpipe"));
         assert_eq!(manifest.cameras, ["cam0"]);

@@ -2,9 +2,10 @@
 
 use super::arguments::frame_range;
 use super::progress::Terminal;
-use opnav::pipeline::{PipelineError, SynthesizeRequest, synthesize};
+use opnav::pipeline::{PipelineError, SynthesizeRequest, Synthesized, synthesize};
 use std::ops::Range;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Render a scenario into a data set with its truth.
 #[derive(Debug, clap::Args)]
@@ -43,7 +44,16 @@ pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineErr
         resume: arguments.resume,
         adapter: arguments.adapter.clone(),
     };
-    let frames = synthesize(&request, terminal)?;
-    terminal.say(&format!("{frames} frames in {}", arguments.out.display()));
+    let Synthesized { frames, cameras, timing } = synthesize(&request, terminal)?;
+    let of_each = if cameras > 1 { format!(" of each of {cameras} cameras") } else { String::new() };
+    terminal.say(&format!("{frames} frames{of_each} in {}", arguments.out.display()));
+    if timing.drawn > 0 {
+        let each_ms = |time: Duration| time.as_secs_f64() * 1e3 / timing.drawn as f64;
+        let [wall, drawing, finishing] = [timing.wall, timing.drawing, timing.finishing].map(each_ms);
+        terminal.say(&format!(
+            "{} drawn, {wall:.0} ms a frame: {drawing:.0} ms to draw, and beside it {finishing:.0} ms to expose, pack and write",
+            timing.drawn
+        ));
+    }
     Ok(())
 }

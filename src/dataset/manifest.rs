@@ -1,9 +1,8 @@
 //! The manifest: what a data set holds, written last.
 
-use super::{DatasetError, write_text};
+use super::journal::{Checksums, JOURNAL, sha256_hex};
+use super::{CameraId, DatasetError, write_text};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Inventory of a finished data set.
@@ -18,23 +17,30 @@ pub struct Manifest {
     /// Camera folders.
     pub cameras: Vec<String>,
     /// SHA-256 of every other file, by path relative to the root.
-    pub sha256: BTreeMap<String, String>,
+    pub sha256: Checksums,
 }
 
-/// Hashes every file under `root` and writes `manifest.json`.
+impl Manifest {
+    /// Manifest of this version of opnav that knows no file yet.
+    pub fn new(adapter: &str, frame_count: usize, cameras: &[CameraId]) -> Self {
+        Manifest {
+            opnav_version: env!("CARGO_PKG_VERSION").into(),
+            adapter: adapter.into(),
+            frame_count,
+            cameras: cameras.iter().map(CameraId::to_string).collect(),
+            sha256: Checksums::new(),
+        }
+    }
+}
+
+/// Writes `manifest.json`: files under `root` whose checksum is in `known` are not read again, all others are.
 ///
 /// # Errors
 /// [`DatasetError::Io`] with the path.
-pub fn write_manifest(root: &Path, adapter: &str, frame_count: usize, cameras: &[&str]) -> Result<(), DatasetError> {
-    let mut sha256 = BTreeMap::new();
-    hash_folder(root, root, &mut sha256)?;
-    let manifest = Manifest {
-        opnav_version: env!("CARGO_PKG_VERSION").into(),
-        adapter: adapter.into(),
-        frame_count,
-        cameras: cameras.iter().map(|s| s.to_string()).collect(),
-        sha256,
-    };
+pub fn write_manifest(root: &Path, manifest: Manifest, known: &Checksums) -> Result<(), DatasetError> {
+    let mut sha256 = Checksums::new();
+    hash_folder(root, root, (known, &mut sha256))?;
+    let manifest = Manifest { sha256, ..manifest };
     let text = serde_json::to_string_pretty(&manifest).expect("a manifest is plain data");
     write_text(&root.join("manifest.json"), &text)
 }
@@ -49,20 +55,22 @@ pub fn read_manifest(root: &Path) -> Result<Manifest, DatasetError> {
     serde_json::from_str(&text).map_err(|e| DatasetError::Unusable { path, problem: e.to_string() })
 }
 
-fn hash_folder(root: &Path, folder: &Path, sha256: &mut BTreeMap<String, String>) -> Result<(), DatasetError> {
+fn hash_folder(root: &Path, folder: &Path, (known, sha256): (&Checksums, &mut Checksums)) -> Result<(), DatasetError> {
     for entry in std::fs::read_dir(folder).map_err(DatasetError::io("list", folder))? {
         let path = entry.map_err(DatasetError::io("list", folder))?.path();
         if path.is_dir() {
-            hash_folder(root, &path, sha256)?;
+            hash_folder(root, &path, (known, &mut *sha256))?;
             continue;
         }
         let name = path.strip_prefix(root).expect("the path is under the root").to_string_lossy().replace('\\', "/");
-        if name == "manifest.json" {
+        if name == "manifest.json" || name == JOURNAL {
             continue;
         }
-        let bytes = std::fs::read(&path).map_err(DatasetError::io("read", &path))?;
-        let digest = Sha256::digest(&bytes);
-        sha256.insert(name, digest.iter().map(|b| format!("{b:02x}")).collect());
+        let digest = match known.get(&name) {
+            Some(digest) => digest.clone(),
+            None => sha256_hex(&std::fs::read(&path).map_err(DatasetError::io("read", &path))?),
+        };
+        sha256.insert(name, digest);
     }
     Ok(())
 }

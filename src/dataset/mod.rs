@@ -5,10 +5,12 @@
 //! own, [`truth`], which estimators may not name.
 
 mod atomic;
+mod camera_id;
 mod designated;
 mod error;
 mod imu;
 mod initial;
+mod journal;
 mod manifest;
 mod raster;
 mod sensor;
@@ -18,12 +20,17 @@ pub mod truth;
 mod tum;
 
 pub use atomic::{remove_partial_files, write_atomically, write_text};
+pub use camera_id::CameraId;
 pub use designated::{DesignatedPoint, read_designated, write_designated};
 pub use error::DatasetError;
 pub use imu::{ImuNoise, ImuSample, read_imu, write_imu, write_imu_sensor};
 pub use initial::{InitialState, read_initial_state, write_initial_state};
+pub use journal::{Checksums, EarlierWork, Journal, read_earlier_work, sha256_hex};
 pub use manifest::{Manifest, read_manifest, write_manifest};
-pub use raster::{read_depth_tiff, read_mask_png, write_depth_tiff, write_grey_png};
+pub use raster::{
+    encode_grey_png, encode_scalar_tiff, encode_vector_tiff, read_depth_tiff, read_mask_png, read_normals_tiff,
+    write_depth_tiff, write_grey_png,
+};
 pub use sensor::{CameraSensor, read_camera_sensor, write_camera_sensor};
 pub use sequence::{CameraSource, Frame, ImageSequence};
 pub use table::{TimedRow, TimedTable, read_timed_table, write_timed_table};

@@ -50,6 +50,20 @@ pub enum PipelineError {
         /// The folder.
         path: PathBuf,
     },
+    /// A folder holds pictures that another adapter or version drew.
+    #[error(
+        "{} was begun by {found}, and {maker} may draw other bytes: resume with the same adapter (--adapter), or name \
+         another folder",
+        path.display()
+    )]
+    OtherMaker {
+        /// The folder.
+        path: PathBuf,
+        /// Version and adapter that began it.
+        found: String,
+        /// This version and adapter.
+        maker: String,
+    },
     /// A range of frames that does not fit.
     #[error("frames {from}..{to} do not lie within the {available} frames there are")]
     FrameRange {

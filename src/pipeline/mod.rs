@@ -20,7 +20,7 @@ pub use land::{LandRequest, land};
 pub use page::write_page;
 pub use progress::{Progress, Silent};
 pub use summary::Summary;
-pub use synthesize::{SynthesizeRequest, synthesize};
+pub use synthesize::{SynthesizeRequest, Synthesized, synthesize};
 pub use track::{TrackRequest, track};
 pub use tumble::{TumbleRequest, tumble};
 

@@ -24,6 +24,11 @@ pub struct CameraConfig {
     pub center_px: Option<[f64; 2]>,
     /// Lens distortion (default none).
     pub distortion: DistortionConfig,
+    /// Rotation vector in degrees that turns the camera away from the mission's nominal direction, in the nominal camera's
+    /// axes: x right, y down, z forward (default 0, 0, 0).
+    pub turn_deg: [f64; 3],
+    /// Place of the camera less that of the mission's nominal camera, in spacecraft axes, m (default 0, 0, 0).
+    pub offset_m: [f64; 3],
 }
 
 /// Lens distortion with OpenCV's coefficients.
@@ -58,6 +63,8 @@ impl Default for CameraConfig {
             focal_px: None,
             center_px: None,
             distortion: DistortionConfig::default(),
+            turn_deg: [0.0; 3],
+            offset_m: [0.0; 3],
         }
     }
 }
@@ -88,6 +95,8 @@ impl CameraConfig {
         for center_px in self.center_px.into_iter().flatten() {
             limits::within("center_px", center_px, -1e5, 1e5)?;
         }
+        self.turn_deg.iter().try_for_each(|v| limits::within("turn_deg", *v, -180.0, 180.0))?;
+        self.offset_m.iter().try_for_each(|v| limits::within("offset_m", *v, -100.0, 100.0))?;
         self.distortion.validate().map_err(|e| e.under("distortion"))?;
         self.camera().validate().map_err(|fault| self.unusable_lens(&fault))
     }

@@ -8,12 +8,15 @@
 mod body;
 mod camera_config;
 mod crater;
+mod depth_picture;
 mod descent;
 mod error;
 mod imager;
 mod limits;
+mod mission_scene;
 mod noise;
 mod noise_octave;
+mod optical_flow;
 mod photometry;
 mod scenario;
 mod scenario_file;
@@ -25,6 +28,7 @@ mod terrain_patch;
 mod terrain_ray;
 mod terrain_rock;
 mod terrain_scatter;
+mod truth_config;
 mod tumbling;
 mod view;
 
@@ -34,18 +38,21 @@ pub use body::{
 };
 pub use camera_config::{CameraConfig, DistortionConfig, DistortionModel};
 pub use crater::{CraterClass, FeatureSample};
+pub use depth_picture::{DepthPicture, observe_landmarks};
 pub use descent::{
     CameraMountConfig, DescentConfig, DescentMotion, DescentScene, FrameSchedule, GuidanceConfig, GuidanceProfile,
     ImuConfig, InitialErrorConfig, PolynomialGuidance, SunConfig, ideal_samples,
 };
 pub use error::SceneError;
-pub use imager::Imager;
+pub use imager::{Imager, ImagerConfig, SceneCamera};
+pub use mission_scene::{Mission, Scene};
 pub use noise::{
     NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseSample, noise_2d, noise_3d,
 };
 pub use noise_octave::{NoiseOctave, OctaveStrength};
+pub use optical_flow::optical_flow;
 pub use photometry::{LunarWeight, PhotometricAngles, Photometry, oren_nayar_coefficients};
-pub use scenario::{Mission, Scenario, Scene};
+pub use scenario::Scenario;
 pub use sensor_config::{Exposure, SensorConfig};
 pub use sunlight::sun_angular_radius_rad;
 pub use terrain::{GroundDetail, GroundSample, Terrain};
@@ -53,5 +60,6 @@ pub use terrain_config::{TerrainConfig, TerrainConfigError};
 pub use terrain_patch::TerrainPatch;
 pub use terrain_rock::RockClass;
 pub use terrain_scatter::{Feature, Scatter};
+pub use truth_config::TruthConfig;
 pub use tumbling::{InertiaSource, PhaseConfig, RigidBody, Spin, TumblingConfig, TumblingScene};
 pub use view::View;

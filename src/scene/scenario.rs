@@ -1,40 +1,20 @@
 //! A scenario: everything that makes a scene, with every default filled in.
 
 use super::scenario_file::ScenarioFile;
-use super::{
-    CameraConfig, DescentConfig, DescentScene, Imager, SceneError, SensorConfig, TumblingConfig, TumblingScene, limits,
-};
+use super::{DescentScene, Imager, ImagerConfig, Mission, Scene, SceneError, TruthConfig, TumblingScene, limits};
 use std::path::Path;
-
-/// What happens in a scenario.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Mission {
-    /// A powered descent to a landing site: the table `[descent]`.
-    Descent(DescentConfig),
-    /// A tumbling small body: the table `[tumbling]`.
-    Tumbling(TumblingConfig),
-}
 
 /// A scenario.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scenario {
     /// Seed of everything random, 0 to 2⁶³-1 (default 1).
     pub seed: u64,
-    /// The camera: the table `[camera]`.
-    pub camera: CameraConfig,
-    /// The detector: the table `[sensor]`.
-    pub sensor: SensorConfig,
+    /// The cameras of each spacecraft, at least one: the tables `[camera]` and `[sensor]`, or `[[cameras]]`.
+    pub imagers: Vec<ImagerConfig>,
+    /// The truth to write beside the pictures: the table `[truth]`.
+    pub truth: TruthConfig,
     /// What happens.
     pub mission: Mission,
-}
-
-/// A scene that a scenario describes.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Scene {
-    /// A powered descent.
-    Descent(Box<DescentScene>),
-    /// A tumbling small body.
-    Tumbling(Box<TumblingScene>),
 }
 
 impl Scenario {
@@ -75,12 +55,14 @@ impl Scenario {
         if i64::try_from(self.seed).is_err() {
             return Err(SceneError::out_of_range("seed", self.seed, "it must be below 9223372036854775808"));
         }
-        self.camera.validate().map_err(|e| e.under("camera"))?;
-        self.sensor.validate().map_err(|e| e.under("sensor"))?;
+        for (index, imager) in self.imagers.iter().enumerate() {
+            imager.validate((self.imagers.len() > 1).then_some(index))?;
+        }
         match &self.mission {
             Mission::Descent(descent) => descent.validate().map_err(|e| e.under("descent")),
             Mission::Tumbling(tumbling) => {
-                let half_side_px = 0.5 * f64::from(self.camera.width_px.min(self.camera.height_px));
+                let first = &self.imagers[0].camera;
+                let half_side_px = 0.5 * f64::from(first.width_px.min(first.height_px));
                 for offset_px in tumbling.center_offset_px {
                     limits::within("tumbling.center_offset_px", offset_px, -half_side_px, half_side_px)?;
                 }
@@ -95,13 +77,13 @@ impl Scenario {
     /// Names the key or the shape file at fault.
     pub fn build(&self, base_folder: &Path) -> Result<Scene, SceneError> {
         self.validate()?;
-        let imager = Imager { camera: self.camera.camera(), detector: self.sensor };
+        let imagers: Vec<Imager> = self.imagers.iter().map(ImagerConfig::imager).collect();
         match &self.mission {
             Mission::Descent(descent) => {
-                DescentScene::new(descent, &imager, self.seed).map(|s| Scene::Descent(Box::new(s)))
+                DescentScene::new(descent, &imagers, self.seed).map(|s| Scene::Descent(Box::new(s)))
             }
             Mission::Tumbling(tumbling) => {
-                TumblingScene::new(tumbling, &imager, self.seed, base_folder).map(|s| Scene::Tumbling(Box::new(s)))
+                TumblingScene::new(tumbling, &imagers, self.seed, base_folder).map(|s| Scene::Tumbling(Box::new(s)))
             }
         }
     }

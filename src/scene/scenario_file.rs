@@ -1,7 +1,8 @@
 //! Scenario files: TOML with defaults, overrides, and errors that name file and key.
 
 use super::{
-    CameraConfig, DescentConfig, DistortionConfig, Mission, Scenario, SceneError, SensorConfig, TumblingConfig,
+    CameraConfig, DescentConfig, DistortionConfig, ImagerConfig, Mission, Scenario, SceneError, SensorConfig,
+    TruthConfig, TumblingConfig,
 };
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -16,18 +17,22 @@ const TUMBLING_FOV_DEG: f64 = 30.0;
 pub(super) struct ScenarioFile {
     #[serde(default = "first_seed")]
     seed: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    camera: Option<CameraTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sensor: Option<SensorConfig>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    cameras: Vec<CameraTable>,
     #[serde(default)]
-    camera: CameraTable,
-    #[serde(default)]
-    sensor: SensorConfig,
+    truth: TruthConfig,
     #[serde(skip_serializing_if = "Option::is_none")]
     descent: Option<DescentConfig>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tumbling: Option<TumblingConfig>,
 }
 
-/// The camera as it stands in a file: the default field of view depends on the mission, and none may stand beside focal
-/// lengths.
+/// A camera as it stands in a file: the default field of view depends on the mission, and none may stand beside focal
+/// lengths; an entry of `[[cameras]]` may have a detector of its own.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct CameraTable {
@@ -39,7 +44,11 @@ struct CameraTable {
     focal_px: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     center_px: Option<[f64; 2]>,
+    turn_deg: [f64; 3],
+    offset_m: [f64; 3],
     distortion: DistortionConfig,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sensor: Option<SensorConfig>,
 }
 
 impl Default for CameraTable {
@@ -52,21 +61,30 @@ impl Default for CameraTable {
 
 impl From<CameraConfig> for CameraTable {
     fn from(config: CameraConfig) -> Self {
-        let CameraConfig { width_px, height_px, fov_deg, focal_px, center_px, distortion } = config;
+        let CameraConfig { width_px, height_px, fov_deg, focal_px, center_px, distortion, turn_deg, offset_m } = config;
         let fov_deg = focal_px.is_none().then_some(fov_deg);
-        CameraTable { width_px, height_px, fov_deg, focal_px, center_px, distortion }
+        let sensor = None;
+        CameraTable { width_px, height_px, fov_deg, focal_px, center_px, turn_deg, offset_m, distortion, sensor }
     }
 }
 
 impl CameraTable {
-    /// The camera, with the mission's field of view unless the file has one.
-    fn resolve(self, mission_fov_deg: f64) -> Result<CameraConfig, &'static str> {
-        let CameraTable { width_px, height_px, fov_deg, focal_px, center_px, distortion } = self;
-        if fov_deg.is_some() && focal_px.is_some() {
-            return Err("the table [camera] has both fov_deg and focal_px: drop one");
+    /// The camera, with the mission's field of view unless the file has one, and `sensor` unless it has its own.
+    fn resolve(self, mission_fov_deg: f64, sensor: &SensorConfig) -> Result<ImagerConfig, &'static str> {
+        if self.fov_deg.is_some() && self.focal_px.is_some() {
+            return Err("a camera has both fov_deg and focal_px: drop one");
         }
-        let fov_deg = fov_deg.unwrap_or(mission_fov_deg);
-        Ok(CameraConfig { width_px, height_px, fov_deg, focal_px, center_px, distortion })
+        let camera = CameraConfig {
+            width_px: self.width_px,
+            height_px: self.height_px,
+            fov_deg: self.fov_deg.unwrap_or(mission_fov_deg),
+            focal_px: self.focal_px,
+            center_px: self.center_px,
+            distortion: self.distortion,
+            turn_deg: self.turn_deg,
+            offset_m: self.offset_m,
+        };
+        Ok(ImagerConfig { camera, sensor: self.sensor.unwrap_or(*sensor) })
     }
 }
 
@@ -111,8 +129,13 @@ impl ScenarioFile {
                 return Err(unusable("it has both a table [descent] and a table [tumbling]: drop one"));
             }
         };
-        let camera = self.camera.resolve(fov_deg).map_err(unusable)?;
-        Ok(Scenario { seed: self.seed, camera, sensor: self.sensor, mission })
+        if self.camera.is_some() && !self.cameras.is_empty() {
+            return Err(unusable("it has both a table [camera] and tables [[cameras]]: drop one"));
+        }
+        let sensor = self.sensor.unwrap_or_default();
+        let tables = if self.cameras.is_empty() { vec![self.camera.unwrap_or_default()] } else { self.cameras };
+        let imagers = tables.into_iter().map(|table| table.resolve(fov_deg, &sensor)).collect::<Result<_, _>>();
+        Ok(Scenario { seed: self.seed, imagers: imagers.map_err(unusable)?, truth: self.truth, mission })
     }
 
     /// The text of the file.
@@ -127,7 +150,13 @@ impl From<&Scenario> for ScenarioFile {
             Mission::Descent(descent) => (Some(descent.clone()), None),
             Mission::Tumbling(tumbling) => (None, Some(tumbling.clone())),
         };
-        ScenarioFile { seed: scenario.seed, camera: scenario.camera.into(), sensor: scenario.sensor, descent, tumbling }
+        let table = |imager: &ImagerConfig| CameraTable::from(imager.camera);
+        let entry = |imager: &ImagerConfig| CameraTable { sensor: Some(imager.sensor), ..table(imager) };
+        let (camera, sensor, cameras) = match scenario.imagers.as_slice() {
+            [only] => (Some(table(only)), Some(only.sensor), Vec::new()),
+            several => (None, None, several.iter().map(entry).collect()),
+        };
+        ScenarioFile { seed: scenario.seed, camera, sensor, cameras, truth: scenario.truth, descent, tumbling }
     }
 }
 

@@ -7,7 +7,7 @@ use opnav::geometry::{Camera, Distortion};
 fn camera(text: &str) -> Camera {
     let first = scenario(text).expect("a scenario");
     assert_eq!(first, scenario(&first.to_toml()).expect("the resolved copy"), "{}", first.to_toml());
-    first.camera.camera()
+    first.imagers[0].camera.camera()
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn a_body_stands_at_its_pixel_whatever_the_lens() {
              fill_fraction = 0.3\n[tumbling.shape.procedural]\nsubdivisions = 2\n"
         );
         let scene = tumbling(&text);
-        let pixel_px = scene.sensor.camera.project(&scene.center_in_camera_m).expect("in front");
+        let pixel_px = scene.cameras[0].sensor.camera.project(&scene.center_in_spacecraft_m).expect("in front");
         assert!((pixel_px - Vector2::new(75.5, 56.5)).norm() < 1e-9, "{pixel_px}");
     }
 }

@@ -202,15 +202,15 @@ const SMALL: &str = "[camera]\nwidth_px = 512\nheight_px = 512\n[descent.schedul
 #[test]
 fn scene_has_states_samples_and_views_on_one_clock() {
     let scene = descent(SMALL);
-    assert_eq!((scene.lander_states.len(), scene.imu.len(), scene.views.len()), (19_801, 19_800, 60));
+    assert_eq!((scene.lander_states.len(), scene.imu.len(), scene.cameras[0].views.len()), (19_801, 19_800, 60));
     assert_eq!(scene.imu_noise.rate_hz, 100.0);
     for (state, sample) in scene.lander_states[1..].iter().zip(&scene.imu) {
         assert_eq!(state.t_ns, sample.t_ns);
     }
-    assert_eq!(scene.views[0].t_ns, 0);
-    for view in &scene.views {
+    assert_eq!(scene.cameras[0].views[0].t_ns, 0);
+    for view in &scene.cameras[0].views {
         let state = &scene.lander_states[(view.t_ns / STEP_NS) as usize];
-        let expected = state.site_from_lander * scene.sensor.spacecraft_from_camera;
+        let expected = state.site_from_lander * scene.cameras[0].sensor.spacecraft_from_camera;
         assert_eq!(view.reference_from_camera, expected);
         let down = view.reference_from_camera * Vector3::z();
         assert!((down + state.site_from_lander * Vector3::z()).norm() < 1e-12);
@@ -224,14 +224,14 @@ fn canted_narrow_camera_keeps_the_site_in_its_pictures() {
     let canted =
         "[camera]\nfov_deg = 60\n[descent.camera_mount]\ncant_deg = 20\n[descent.schedule.uniform]\nrate_hz = 1\n";
     let scene = descent(canted);
-    for view in &scene.views {
+    for view in &scene.cameras[0].views {
         let site = view.reference_from_camera.inverse_transform_point(&Point3::origin()).coords;
-        let pixel = scene.sensor.camera.project(&site).unwrap();
-        assert!(scene.sensor.camera.contains(&pixel, 0.0), "t = {} ns: {pixel}", view.t_ns);
+        let pixel = scene.cameras[0].sensor.camera.project(&site).unwrap();
+        assert!(scene.cameras[0].sensor.camera.contains(&pixel, 0.0), "t = {} ns: {pixel}", view.t_ns);
     }
-    let axis = scene.sensor.spacecraft_from_camera * Vector3::z();
+    let axis = scene.cameras[0].sensor.spacecraft_from_camera * Vector3::z();
     assert!(((-axis.z).acos().to_degrees() - 20.0).abs() < 1e-9);
-    let site = scene.views[0].reference_from_camera.inverse_transform_point(&Point3::origin()).coords;
+    let site = scene.cameras[0].views[0].reference_from_camera.inverse_transform_point(&Point3::origin()).coords;
     assert!((site.xy().norm().atan2(site.z).to_degrees() - 20.3).abs() < 0.06);
     let blind = scenario(&canted.replace("20", "0")).unwrap().build(super::datasets()).unwrap_err().to_string();
     assert!(blind.contains("cant_deg") && blind.contains("40.3°"), "{blind}");
@@ -240,7 +240,7 @@ fn canted_narrow_camera_keeps_the_site_in_its_pictures() {
 #[test]
 fn lever_arm_moves_the_camera_in_lander_axes() {
     let scene = descent(&format!("{SMALL}[descent.camera_mount]\ncamera_in_lander_m = [0.5, -0.25, -1]\n"));
-    let (view, state) = (&scene.views[0], &scene.lander_states[0]);
+    let (view, state) = (&scene.cameras[0].views[0], &scene.lander_states[0]);
     let found = state.site_from_lander.inverse() * view.reference_from_camera;
     assert!((found.translation.vector - Vector3::new(0.5, -0.25, -1.0)).norm() < 1e-9);
 }
@@ -276,8 +276,8 @@ fn initial_state_errs_uniformly_as_it_says() {
 #[test]
 fn designated_pixel_is_the_site_with_its_noise() {
     let scene = descent(SMALL);
-    let site = scene.views[0].reference_from_camera.inverse_transform_point(&Point3::origin()).coords;
-    let true_px = scene.sensor.camera.project(&site).unwrap();
+    let site = scene.cameras[0].views[0].reference_from_camera.inverse_transform_point(&Point3::origin()).coords;
+    let true_px = scene.cameras[0].sensor.camera.project(&site).unwrap();
     let off_px = scene.designated.pixel_px - true_px;
     assert!(off_px.norm() > 1e-6 && off_px.norm() < 0.5, "{off_px}");
     assert!((scene.designated.covariance_px2 - nalgebra::Matrix2::identity() * 0.01).abs().max() < 1e-15);
@@ -299,10 +299,14 @@ fn landmarks_lie_on_the_ground_at_every_scale() {
         assert!((p.z - scene.terrain.height_m(p.x, p.y)).abs() < 1e-9);
     }
     let seen = |index: usize| {
-        let view = &scene.views[index];
+        let view = &scene.cameras[0].views[index];
         let inside = |p: &Vector3<f64>| {
             let in_camera = view.reference_from_camera.inverse_transform_point(&Point3::from(*p)).coords;
-            scene.sensor.camera.project(&in_camera).is_some_and(|pixel| scene.sensor.camera.contains(&pixel, 0.0))
+            scene.cameras[0]
+                .sensor
+                .camera
+                .project(&in_camera)
+                .is_some_and(|pixel| scene.cameras[0].sensor.camera.contains(&pixel, 0.0))
         };
         scene.landmarks.iter().filter(|l| inside(&l.position_m)).count()
     };

@@ -23,8 +23,8 @@ fn every_shipped_scenario_reads_resolves_and_builds() {
         let scenario = Scenario::read(&path, &[]).unwrap();
         assert_eq!(scenario, self::scenario(&scenario.to_toml()).unwrap(), "{}", path.display());
         match scenario.build(datasets()).unwrap() {
-            Scene::Descent(scene) => assert!(scene.views.len() >= 60, "{}", path.display()),
-            Scene::Tumbling(scene) => assert_eq!(scene.views.len(), 60, "{}", path.display()),
+            Scene::Descent(scene) => assert!(scene.cameras[0].views.len() >= 60, "{}", path.display()),
+            Scene::Tumbling(scene) => assert_eq!(scene.cameras[0].views.len(), 60, "{}", path.display()),
         }
         count += 1;
     }
@@ -80,7 +80,10 @@ fn overrides_follow_toml_types_and_make_missing_tables() {
         ],
     )
     .unwrap();
-    assert_eq!((found.seed, found.camera.width_px, found.sensor.exposure), (42, 256, Exposure::Auto));
+    assert_eq!(
+        (found.seed, found.imagers[0].camera.width_px, found.imagers[0].sensor.exposure),
+        (42, 256, Exposure::Auto)
+    );
     let Mission::Descent(descent) = found.mission else { panic!("not a descent") };
     assert!(!descent.imu.noise);
     assert_eq!(descent.schedule, FrameSchedule::ConstantScale { count: 9, end_height_m: 15.0 });

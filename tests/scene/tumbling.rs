@@ -116,11 +116,11 @@ fn scene_is_the_papers_case_by_default() {
 #[test]
 fn body_fills_its_share_of_the_picture_and_stays_in_place() {
     let scene = tumbling(&SMALL.replace("frames = 8", "frames = 8\nfill_fraction = 0.8\ncenter_offset_px = [10, -6]"));
-    let camera = scene.sensor.camera;
+    let camera = scene.cameras[0].sensor.camera;
     let (mut widest_px, radius_m) = (0.0_f64, scene.body.mesh.radius_m());
-    for view in &scene.views {
+    for view in &scene.cameras[0].views {
         let center = view.reference_from_camera.inverse_transform_point(&Point3::origin()).coords;
-        assert!((center - scene.center_in_camera_m).norm() < 1e-9);
+        assert!((center - scene.center_in_spacecraft_m).norm() < 1e-9);
         let pixel = camera.project(&center).unwrap();
         assert!((pixel - camera.center_px - nalgebra::Vector2::new(10.0, -6.0)).norm() < 1e-9);
         for vertex in &scene.body.mesh.vertices_m {
@@ -129,16 +129,16 @@ fn body_fills_its_share_of_the_picture_and_stays_in_place() {
         }
     }
     assert!(widest_px < 0.5 * 0.8 * 192.0 * 1.01 && widest_px > 0.6 * 0.5 * 0.8 * 192.0, "{widest_px}");
-    let silhouette = (radius_m / scene.center_in_camera_m.norm()).asin().tan();
+    let silhouette = (radius_m / scene.center_in_spacecraft_m.norm()).asin().tan();
     assert!((silhouette * camera.focal_px.y - 0.5 * 0.8 * 192.0).abs() < 1e-9);
 }
 
 #[test]
 fn sun_stands_still_for_the_camera_at_its_phase_angle() {
     let scene = tumbling(SMALL);
-    for view in &scene.views {
+    for view in &scene.cameras[0].views {
         let sun = view.reference_from_camera.rotation.inverse() * view.sun_in_reference;
-        let to_camera = -scene.center_in_camera_m.normalize();
+        let to_camera = -scene.center_in_spacecraft_m.normalize();
         assert!((sun.dot(&to_camera).acos().to_degrees() - 35.0).abs() < 1e-9);
         assert!(sun.x < 0.0 && sun.y < 0.0, "the light comes from the upper left: {sun:?}");
     }

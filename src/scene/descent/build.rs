@@ -3,18 +3,23 @@
 use super::landmarks::landmarks_around_site;
 use super::{DescentConfig, DescentMotion, PolynomialGuidance};
 use crate::dataset::truth::{LanderState, Landmark};
-use crate::dataset::{CameraSensor, DesignatedPoint, ImuNoise, ImuSample, InitialState};
-use crate::geometry::Camera;
-use crate::scene::{Imager, SceneError, SensorConfig, Terrain, View, sun_angular_radius_rad};
-use nalgebra::{Isometry3, Point3};
+use crate::dataset::{CameraId, CameraSensor, DesignatedPoint, ImuNoise, ImuSample, InitialState};
+use crate::scene::{Imager, SceneCamera, SceneError, Terrain, View, sun_angular_radius_rad};
+use nalgebra::{Isometry3, Point3, Unit, Vector3};
 
 /// A descent: the ground, the pictures to take, and what the lander measures and believes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DescentScene {
     /// The ground in the site frame.
     pub terrain: Terrain,
-    /// One view a picture, in the site frame.
-    pub views: Vec<View>,
+    /// The cameras with their views in the site frame; all take their pictures at the same times.
+    pub cameras: Vec<SceneCamera>,
+    /// How the lander moves.
+    pub motion: DescentMotion,
+    /// Direction to the Sun in the site frame.
+    pub sun_in_site: Unit<Vector3<f64>>,
+    /// Angular radius of the Sun's disc, rad.
+    pub sun_angular_radius_rad: f64,
     /// True states at t = 0 and at every inertial sample, up to touchdown.
     pub lander_states: Vec<LanderState>,
     /// Inertial samples up to touchdown, the first one interval after t = 0.
@@ -23,23 +28,24 @@ pub struct DescentScene {
     pub imu_noise: ImuNoise,
     /// What the lander believes at the first picture.
     pub initial: InitialState,
-    /// Measured pixel of the site's origin in the first picture.
+    /// Measured pixel of the site's origin in the first camera's first picture.
     pub designated: DesignatedPoint,
-    /// The camera, in lander axes.
-    pub sensor: CameraSensor,
-    /// The detector.
-    pub sensor_model: SensorConfig,
     /// Points on the ground, in the site frame; the first is the site's origin.
     pub landmarks: Vec<Landmark>,
 }
 
 impl DescentScene {
+    /// What a camera sees at any time of the descent, between pictures too.
+    pub fn view_at(&self, camera: &SceneCamera, t_ns: i64) -> View {
+        view(&self.motion, &camera.sensor, &(self.sun_in_site, self.sun_angular_radius_rad), t_ns)
+    }
+
     /// Scene of a configuration that [`DescentConfig::validate`] accepts.
     ///
     /// # Errors
-    /// Names the key at fault if no schedule fits, if the camera would be in the ground, or if it does not see the site
-    /// in the first picture.
-    pub fn new(config: &DescentConfig, imager: &Imager, seed: u64) -> Result<DescentScene, SceneError> {
+    /// Names the key at fault if no schedule fits, if a camera would be in the ground, or if the first one does not see
+    /// the site in its first picture.
+    pub fn new(config: &DescentConfig, imagers: &[Imager], seed: u64) -> Result<DescentScene, SceneError> {
         let path = PolynomialGuidance::new(&config.guidance);
         let motion = DescentMotion::new(path);
         let terrain = Terrain::new(&config.terrain, seed);
@@ -48,39 +54,49 @@ impl DescentScene {
         let times_ns =
             config.schedule.times_ns(&path, interval_ns).map_err(|e| e.under("schedule").under("descent"))?;
         let site_in_lander_m = motion.state(0).site_from_lander.inverse_transform_point(&Point3::origin()).coords;
-        let lander_from_camera = config.camera_mount.lander_from_camera(&site_in_lander_m);
-        let sensor = CameraSensor {
-            camera: imager.camera,
-            spacecraft_from_camera: lander_from_camera,
-            rate_hz: config.schedule.rate_hz(),
+        let lander_from_nominal = config.camera_mount.lander_from_camera(&site_in_lander_m);
+        let sun = (config.sun.sun_in_site(), sun_angular_radius_rad(config.sun.distance_au));
+        let camera = |(number, imager): (u32, &Imager)| {
+            let sensor = CameraSensor {
+                camera: imager.camera,
+                spacecraft_from_camera: imager.spacecraft_from_camera(&lander_from_nominal),
+                rate_hz: config.schedule.rate_hz(),
+            };
+            let views = times_ns.iter().map(|t_ns| view(&motion, &sensor, &sun, *t_ns)).collect();
+            SceneCamera { id: CameraId::single(number), sensor, detector: imager.detector, views }
         };
-        let sun_in_reference = config.sun.sun_in_site();
-        let view = |t_ns: &i64| View {
-            t_ns: *t_ns,
-            reference_from_camera: motion.state(*t_ns).site_from_lander * lander_from_camera,
-            sun_in_reference,
-            sun_angular_radius_rad: sun_angular_radius_rad(config.sun.distance_au),
-        };
-        let views: Vec<View> = times_ns.iter().map(view).collect();
-        check_above_ground(&views, &terrain)?;
-        let first = &views[0];
-        let designated = designated(config, &imager.camera, first, seed)?;
+        let cameras: Vec<SceneCamera> = (0..).zip(imagers).map(camera).collect();
+        cameras.iter().try_for_each(|camera| check_above_ground(&camera.views, &terrain))?;
+        let designated = designated(config, &cameras[0], seed)?;
+        let first_ns = times_ns[0];
         Ok(DescentScene {
             lander_states: (0..=end_ns / interval_ns).map(|index| motion.state(index * interval_ns)).collect(),
             imu: config.imu.samples(&motion, end_ns, seed),
             imu_noise: config.imu.noise(),
-            initial: config.initial_error.initial_state(&motion.state(first.t_ns), seed),
+            initial: config.initial_error.initial_state(&motion.state(first_ns), seed),
             designated,
-            sensor,
-            sensor_model: imager.detector,
             landmarks: landmarks_around_site(&terrain, config.landmarks, path.position_in_site_m(0.0).norm()),
             terrain,
-            views,
+            cameras,
+            motion,
+            sun_in_site: sun.0,
+            sun_angular_radius_rad: sun.1,
         })
     }
 }
 
-fn designated(config: &DescentConfig, camera: &Camera, first: &View, seed: u64) -> Result<DesignatedPoint, SceneError> {
+/// What a camera of the lander sees at one moment.
+fn view(motion: &DescentMotion, sensor: &CameraSensor, sun: &(Unit<Vector3<f64>>, f64), t_ns: i64) -> View {
+    View {
+        t_ns,
+        reference_from_camera: motion.state(t_ns).site_from_lander * sensor.spacecraft_from_camera,
+        sun_in_reference: sun.0,
+        sun_angular_radius_rad: sun.1,
+    }
+}
+
+fn designated(config: &DescentConfig, first_camera: &SceneCamera, seed: u64) -> Result<DesignatedPoint, SceneError> {
+    let (camera, first) = (&first_camera.sensor.camera, &first_camera.views[0]);
     let site_in_camera_m = first.reference_from_camera.inverse_transform_point(&Point3::origin()).coords;
     let pixel_px = camera.project(&site_in_camera_m).filter(|pixel| camera.contains(pixel, 0.0)).ok_or_else(|| {
         let off_axis_deg = site_in_camera_m.xy().norm().atan2(site_in_camera_m.z).to_degrees();

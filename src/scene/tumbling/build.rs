@@ -3,9 +3,10 @@
 use super::placement::center_in_camera_m;
 use super::rigid_body::rows;
 use super::{RigidBody, Spin, TumblingConfig};
-use crate::dataset::CameraSensor;
+
 use crate::dataset::truth::{AsteroidInertia, AsteroidState, Landmark};
-use crate::scene::{Imager, SceneError, SensorConfig, SmallBody, View, sun_angular_radius_rad};
+use crate::dataset::{CameraId, CameraSensor};
+use crate::scene::{Imager, SceneCamera, SceneError, SmallBody, View, sun_angular_radius_rad};
 use nalgebra::{Isometry3, Translation3, Unit, Vector2, Vector3};
 use std::path::Path;
 
@@ -14,18 +15,20 @@ use std::path::Path;
 pub struct TumblingScene {
     /// The body in asteroid axes.
     pub body: SmallBody,
-    /// One view a picture, in asteroid axes.
-    pub views: Vec<View>,
+    /// The cameras with their views in asteroid axes; all take their pictures at the same times.
+    pub cameras: Vec<SceneCamera>,
     /// True attitude and rate, one a picture. Inertial axes are the camera's.
     pub states: Vec<AsteroidState>,
     /// True inertia tensor in asteroid axes, the last element 1.
     pub inertia: AsteroidInertia,
-    /// Centre of the body in the camera frame, m; it does not move.
-    pub center_in_camera_m: Vector3<f64>,
-    /// The camera, in the spacecraft's frame.
-    pub sensor: CameraSensor,
-    /// The detector.
-    pub sensor_model: SensorConfig,
+    /// Centre of the body in the spacecraft's frame (the nominal camera's), m; it does not move.
+    pub center_in_spacecraft_m: Vector3<f64>,
+    /// Direction to the Sun in the spacecraft's frame; it does not move.
+    pub sun_in_spacecraft: Unit<Vector3<f64>>,
+    /// Angular radius of the Sun's disc, rad.
+    pub sun_angular_radius_rad: f64,
+    /// How the body moves.
+    pub rigid_body: RigidBody,
     /// Points on the surface, in asteroid axes.
     pub landmarks: Vec<Landmark>,
 }
@@ -37,33 +40,68 @@ impl TumblingScene {
     /// Names the shape file or the key at fault.
     pub fn new(
         config: &TumblingConfig,
-        imager: &Imager,
+        imagers: &[Imager],
         seed: u64,
         base_folder: &Path,
     ) -> Result<TumblingScene, SceneError> {
         let (mesh, shape) = config.shape.centered_mesh(config.surface.albedo_map.as_ref(), base_folder, seed)?;
         let rigid_body = config.inertia.rigid_body(&shape)?;
         let offset_px = Vector2::from(config.center_offset_px);
-        let center_in_camera_m = center_in_camera_m(&imager.camera, mesh.radius_m(), config.fill_fraction, &offset_px);
-        if center_in_camera_m.z <= mesh.radius_m() {
+        let first_camera = &imagers[0].camera;
+        let center_in_spacecraft_m =
+            center_in_camera_m(first_camera, mesh.radius_m(), config.fill_fraction, &offset_px);
+        if center_in_spacecraft_m.z <= mesh.radius_m() {
             let cure = "the camera would be inside the body: make it smaller";
             return Err(SceneError::out_of_range("tumbling.fill_fraction", config.fill_fraction, cure));
         }
-        let sun_in_camera = config.sun.sun_in_camera(&center_in_camera_m);
         let states = states(config, &rigid_body);
-        let sun = (&sun_in_camera, sun_angular_radius_rad(config.sun.distance_au));
-        let views = states.iter().map(|state| view(state, &center_in_camera_m, sun)).collect();
-        let rate_hz = Some(1.0 / config.interval_s);
-        Ok(TumblingScene {
-            views,
-            states,
+        let mut scene = TumblingScene {
+            cameras: Vec::new(),
             inertia: AsteroidInertia { inertia: rows(rigid_body.inertia()) },
-            center_in_camera_m,
-            sensor: CameraSensor { camera: imager.camera, spacecraft_from_camera: Isometry3::identity(), rate_hz },
-            sensor_model: imager.detector,
+            sun_in_spacecraft: config.sun.sun_in_camera(&center_in_spacecraft_m),
+            sun_angular_radius_rad: sun_angular_radius_rad(config.sun.distance_au),
+            center_in_spacecraft_m,
+            rigid_body,
+            states,
             landmarks: mesh.spread_landmarks(config.landmarks, seed),
             body: SmallBody { surface: config.surface.on(&mesh, seed), mesh },
-        })
+        };
+        scene.cameras = (0..).zip(imagers).map(|entry| scene.camera(entry, 1.0 / config.interval_s)).collect();
+        Ok(scene)
+    }
+
+    fn camera(&self, (number, imager): (u32, &Imager), rate_hz: f64) -> SceneCamera {
+        let spacecraft_from_camera = imager.spacecraft_from_camera(&Isometry3::identity());
+        let sensor = CameraSensor { camera: imager.camera, spacecraft_from_camera, rate_hz: Some(rate_hz) };
+        let views = self.states.iter().map(|state| self.view(&sensor, state)).collect();
+        SceneCamera { id: CameraId::single(number), sensor, detector: imager.detector, views }
+    }
+
+    /// What a camera sees at any time, between pictures too.
+    pub fn view_at(&self, camera: &SceneCamera, t_ns: i64) -> View {
+        let before = self.states.partition_point(|state| state.t_ns <= t_ns).saturating_sub(1);
+        let AsteroidState { t_ns: start_ns, asteroid_from_inertial, rate_in_asteroid_rad_s } = self.states[before];
+        let start = Spin { asteroid_from_inertial, rate_in_asteroid_rad_s };
+        let spin = self.rigid_body.propagate(&start, (t_ns - start_ns) as f64 * 1e-9);
+        let state = AsteroidState {
+            t_ns,
+            asteroid_from_inertial: spin.asteroid_from_inertial,
+            rate_in_asteroid_rad_s: spin.rate_in_asteroid_rad_s,
+        };
+        self.view(&camera.sensor, &state)
+    }
+
+    /// A point p of the spacecraft's frame is A (p - c) in asteroid axes, with A the attitude and c the body's centre.
+    fn view(&self, sensor: &CameraSensor, state: &AsteroidState) -> View {
+        let attitude = state.asteroid_from_inertial;
+        let spacecraft_in_asteroid_m = -(attitude * self.center_in_spacecraft_m);
+        let asteroid_from_spacecraft = Isometry3::from_parts(Translation3::from(spacecraft_in_asteroid_m), attitude);
+        View {
+            t_ns: state.t_ns,
+            reference_from_camera: asteroid_from_spacecraft * sensor.spacecraft_from_camera,
+            sun_in_reference: attitude * self.sun_in_spacecraft,
+            sun_angular_radius_rad: self.sun_angular_radius_rad,
+        }
     }
 }
 
@@ -82,20 +120,4 @@ fn states(config: &TumblingConfig, body: &RigidBody) -> Vec<AsteroidState> {
         });
     }
     states
-}
-
-/// A point p of the camera frame is A (p - c) in asteroid axes, with A the attitude and c the body's centre.
-fn view(
-    state: &AsteroidState,
-    center_in_camera_m: &Vector3<f64>,
-    (sun_in_camera, sun_angular_radius_rad): (&Unit<Vector3<f64>>, f64),
-) -> View {
-    let attitude = state.asteroid_from_inertial;
-    let camera_in_asteroid_m = -(attitude * center_in_camera_m);
-    View {
-        t_ns: state.t_ns,
-        reference_from_camera: Isometry3::from_parts(Translation3::from(camera_in_asteroid_m), attitude),
-        sun_in_reference: attitude * sun_in_camera,
-        sun_angular_radius_rad,
-    }
 }

@@ -1,0 +1,60 @@
+//! Which camera of a data set, and where its files lie.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// A camera of a data set: `cam0`, or `node1/cam0` where several spacecraft take pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct CameraId {
+    /// Number of the spacecraft, from 0; `None` where there is only one.
+    pub node: Option<u32>,
+    /// Number of the camera on its spacecraft, from 0.
+    pub number: u32,
+}
+
+impl CameraId {
+    /// A camera of the only spacecraft.
+    pub fn single(number: u32) -> Self {
+        CameraId { node: None, number }
+    }
+
+    /// The folder of pictures and `sensor.yaml` under a data set's root.
+    pub fn folder(&self, root: &Path) -> PathBuf {
+        root.join(self.to_string())
+    }
+
+    /// Path of a picture relative to the data set's root, with `/`.
+    pub fn picture(&self, t_ns: i64) -> String {
+        format!("{self}/data/{t_ns}.png")
+    }
+
+    /// The folder that holds what belongs to the camera's spacecraft: the root itself, or `node1` under it.
+    pub fn spacecraft_folder(&self, root: &Path) -> PathBuf {
+        self.node.map_or_else(|| root.into(), |node| root.join(format!("node{node}")))
+    }
+}
+
+impl fmt::Display for CameraId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(node) = self.node {
+            write!(f, "node{node}/")?;
+        }
+        write!(f, "cam{}", self.number)
+    }
+}
+
+impl FromStr for CameraId {
+    type Err = String;
+
+    /// Reads what [`CameraId`] displays.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let expected = || format!("'{text}' is not a camera's name such as cam0 or node1/cam0");
+        let number = |part: &str, prefix: &str| part.strip_prefix(prefix).and_then(|digits| digits.parse::<u32>().ok());
+        let (node, camera) = match text.split_once('/') {
+            Some((node, camera)) => (Some(number(node, "node").ok_or_else(expected)?), camera),
+            None => (None, text),
+        };
+        Ok(CameraId { node, number: number(camera, "cam").ok_or_else(expected)? })
+    }
+}

@@ -1,0 +1,119 @@
+//! Drawing the missing pictures, camera by camera.
+
+use super::folder::DatasetFolder;
+use super::frame::{DrawnFrame, FrameRecord, finish_frame};
+use super::run::FrameKey;
+use super::workers::draw_and_finish;
+use crate::geometry::Camera;
+use crate::pipeline::{PipelineError, Progress};
+use crate::render::{Gpu, RenderConfig, RenderedFrame, Renderer, World};
+use crate::scene::{Scenario, Scene};
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+/// Where the time of drawing and writing went.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DrawTiming {
+    /// Pictures drawn.
+    pub drawn: usize,
+    /// From the first picture's beginning to the last one's file.
+    pub wall: Duration,
+    /// Time in the renderer.
+    pub drawing: Duration,
+    /// Time in the threads that expose, pack and write, all together; it runs beside the drawing.
+    pub finishing: Duration,
+}
+
+/// Threads that finish pictures, at most: more would only hold more memory.
+const MOST_THREADS: usize = 8;
+
+/// Draws the missing frames and adds what is known of them to `finished`.
+pub(super) fn draw_frames(
+    (gpu, scene, scenario): (&Gpu, &Scene, &Scenario),
+    missing: &[FrameKey],
+    folder: &DatasetFolder,
+    (finished, progress): (&mut BTreeMap<FrameKey, FrameRecord>, &dyn Progress),
+) -> Result<DrawTiming, PipelineError> {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS);
+    let (start, mut drawing) = (Instant::now(), Duration::ZERO);
+    let mut blank = BlankFrames::default();
+    progress.begin("rendering", missing.len());
+    let finish = |frame: DrawnFrame| {
+        let key = frame.key;
+        finish_frame(frame, folder, (scene.landmarks(), scenario.seed)).map(|record| (key, record))
+    };
+    let done = draw_and_finish(threads, finish, |pass_on| {
+        let mut studio: Option<(Camera, Renderer)> = None;
+        for (done, key) in missing.iter().enumerate() {
+            let camera = &scene.cameras()[key.0];
+            let view = camera.views[key.1];
+            let begun = Instant::now();
+            let truth = renderer_for(&mut studio, gpu, scene, &camera.sensor.camera)?.render(&view)?;
+            drawing += begun.elapsed();
+            blank.look_at(&truth, *key);
+            if !pass_on(DrawnFrame { key: *key, camera, view, truth }) {
+                break; // a thread failed and says why
+            }
+            progress.advance_to(done + 1);
+        }
+        Ok(())
+    });
+    progress.end();
+    blank.warn(scene, progress);
+    let done = done?;
+    finished.extend(done.results);
+    Ok(DrawTiming { drawn: missing.len(), wall: start.elapsed(), drawing, finishing: done.busy })
+}
+
+/// The renderer of a camera; the one before is given up where its camera is another, so that only one holds memory.
+fn renderer_for<'a>(
+    studio: &'a mut Option<(Camera, Renderer)>,
+    gpu: &Gpu,
+    scene: &Scene,
+    camera: &Camera,
+) -> Result<&'a mut Renderer, PipelineError> {
+    if studio.as_ref().is_none_or(|(last, _)| last != camera) {
+        *studio = None;
+        *studio = Some((*camera, Renderer::new(gpu, world(scene), camera, &RenderConfig::default())?));
+    }
+    Ok(&mut studio.as_mut().expect("a renderer was just made").1)
+}
+
+/// What the renderer shows of a scene.
+fn world(scene: &Scene) -> World<'_> {
+    match scene {
+        Scene::Descent(scene) => World::Terrain(&scene.terrain),
+        Scene::Tumbling(scene) => World::Body(&scene.body),
+    }
+}
+
+/// Pictures without anything to see in them. They are kept, for they may be meant, but never passed over in silence.
+#[derive(Default)]
+struct BlankFrames {
+    without_surface: Vec<FrameKey>,
+    without_light: Vec<FrameKey>,
+}
+
+impl BlankFrames {
+    fn look_at(&mut self, frame: &RenderedFrame, key: FrameKey) {
+        if frame.mask.iter().all(|mask| mask & RenderedFrame::BODY == 0) {
+            self.without_surface.push(key);
+        } else if frame.mask.iter().all(|mask| mask & RenderedFrame::LIT == 0) {
+            self.without_light.push(key);
+        }
+    }
+
+    fn warn(&self, scene: &Scene, progress: &dyn Progress) {
+        let kinds = [
+            (&self.without_surface, "show nothing of the surface: check where the camera looks"),
+            (&self.without_light, "show no sunlit ground: check where the Sun stands"),
+        ];
+        for (keys, problem) in kinds {
+            let Some((camera, frame)) = keys.first() else { continue };
+            let camera = &scene.cameras()[*camera];
+            let t_s = camera.views[*frame].t_ns as f64 * 1e-9;
+            let count = keys.len();
+            progress.note(&format!("warning: {count} pictures ({} at {t_s} s the first) {problem}", camera.id));
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! What happens in a scenario, and the scene that it describes.
+
+use super::{DescentConfig, DescentScene, SceneCamera, TumblingConfig, TumblingScene, View};
+use crate::dataset::truth::Landmark;
+
+/// What happens in a scenario.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Mission {
+    /// A powered descent to a landing site: the table `[descent]`.
+    Descent(DescentConfig),
+    /// A tumbling small body: the table `[tumbling]`.
+    Tumbling(TumblingConfig),
+}
+
+/// A scene that a scenario describes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Scene {
+    /// A powered descent.
+    Descent(Box<DescentScene>),
+    /// A tumbling small body.
+    Tumbling(Box<TumblingScene>),
+}
+
+impl Scene {
+    /// The cameras, at least one, and the pictures that they take.
+    pub fn cameras(&self) -> &[SceneCamera] {
+        match self {
+            Scene::Descent(scene) => &scene.cameras,
+            Scene::Tumbling(scene) => &scene.cameras,
+        }
+    }
+
+    /// Points on the surface, in the views' reference frame.
+    pub fn landmarks(&self) -> &[Landmark] {
+        match self {
+            Scene::Descent(scene) => &scene.landmarks,
+            Scene::Tumbling(scene) => &scene.landmarks,
+        }
+    }
+
+    /// What one of the scene's cameras sees at any time, between its pictures too.
+    pub fn view_at(&self, camera: &SceneCamera, t_ns: i64) -> View {
+        match self {
+            Scene::Descent(scene) => scene.view_at(camera, t_ns),
+            Scene::Tumbling(scene) => scene.view_at(camera, t_ns),
+        }
+    }
+}
