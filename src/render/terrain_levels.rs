@@ -12,10 +12,6 @@ use nalgebra::{Vector2, Vector3};
 const LEAST_RANGE_OVER_SPACING: f64 = 160.0;
 /// A level's vertices have reached the coarser grid at this share of its range; the rest is a guard for rounding.
 const MORPH_END: f64 = 0.98;
-/// No ground departs more than this from the height at a tile's centre, per m of distance from it.
-const STEEPEST_MEAN: f64 = 0.4;
-/// No ground departs more than this from the height at a tile's centre, in m.
-const MOST_RELIEF_M: f64 = 400.0;
 
 /// Where levels begin and end.
 #[derive(Debug, Clone, Copy)]
@@ -85,7 +81,7 @@ fn touches(key: &TileKey, terrain: &Terrain, volume: &ViewVolume) -> bool {
     let [x_m, y_m] = key.corner_m();
     let half_m = 0.5 * key.edge_m();
     let middle = Vector2::new(x_m + half_m, y_m + half_m);
-    let relief_m = (STEEPEST_MEAN * std::f64::consts::SQRT_2 * half_m).min(MOST_RELIEF_M);
+    let relief_m = terrain.relief_bound_m(&middle, half_m);
     let height_m = terrain.sample(middle.x, middle.y, &key.detail()).height_m;
     let center = Vector3::new(middle.x, middle.y, height_m) - volume.camera_in_site_m + 0.5 * volume.shadow_in_site_m;
     let half = Vector3::new(half_m, half_m, relief_m) + 0.5 * volume.shadow_in_site_m.abs();

@@ -11,8 +11,8 @@ pub(super) const COARSE_SIDE: usize = 17;
 pub(super) const TILE_VERTICES: usize = SIDE * SIDE + COARSE_SIDE * COARSE_SIDE;
 /// Levels: the spacing of vertices is 2^level m.
 pub(super) const FINEST_LEVEL: i32 = -8;
-/// Four tiles of the coarsest level cover ±131 km.
-pub(super) const COARSEST_LEVEL: i32 = 12;
+/// Four tiles of the coarsest level cover ±524 km: beyond the horizon from 12 km above Mars.
+pub(super) const COARSEST_LEVEL: i32 = 14;
 /// Relief and albedo of this many spacings and more are the vertices' to carry; finer ones are shaded per pixel.
 const SHADE_SPACINGS: f64 = 16.0;
 /// Relief of this many spacings and more displaces vertices.

@@ -10,6 +10,7 @@ mod camera_config;
 mod crater;
 mod depth_picture;
 mod descent;
+mod elevation;
 mod error;
 mod imager;
 mod limits;
@@ -23,6 +24,7 @@ mod scenario_file;
 mod sensor_config;
 mod sunlight;
 mod terrain;
+mod terrain_base;
 mod terrain_config;
 mod terrain_patch;
 mod terrain_ray;
@@ -42,6 +44,10 @@ pub use depth_picture::{DepthPicture, observe_landmarks};
 pub use descent::{
     CameraMountConfig, DescentConfig, DescentMotion, DescentScene, FrameSchedule, GuidanceConfig, GuidanceProfile,
     ImuConfig, InitialErrorConfig, PolynomialGuidance, SunConfig, ideal_samples,
+};
+pub use elevation::{
+    AlbedoValues, ElevationConfig, ElevationModel, ElevationSummary, Georeference, GroundBase, MapPlace, MapSite,
+    Orthoimage, OrthoimageConfig, Raster, RasterFile, RasterGeometry, RawLayout, SampleKind,
 };
 pub use error::SceneError;
 pub use imager::{Imager, ImagerConfig, SceneCamera};

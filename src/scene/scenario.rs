@@ -71,7 +71,7 @@ impl Scenario {
         }
     }
 
-    /// Builds the scene; relative paths of shapes start at `base_folder`, the folder of the scenario file.
+    /// Builds the scene; relative paths of shapes and rasters start at `base_folder`, the folder of the scenario file.
     ///
     /// # Errors
     /// Names the key or the shape file at fault.
@@ -80,7 +80,7 @@ impl Scenario {
         let imagers: Vec<Imager> = self.imagers.iter().map(ImagerConfig::imager).collect();
         match &self.mission {
             Mission::Descent(descent) => {
-                DescentScene::new(descent, &imagers, self.seed).map(|s| Scene::Descent(Box::new(s)))
+                DescentScene::new(descent, &imagers, self.seed, base_folder).map(|s| Scene::Descent(Box::new(s)))
             }
             Mission::Tumbling(tumbling) => {
                 TumblingScene::new(tumbling, &imagers, self.seed, base_folder).map(|s| Scene::Tumbling(Box::new(s)))

@@ -1,20 +1,25 @@
 //! Procedural terrain: fractal relief, craters and albedo, known at every place from kilometres down to centimetres.
 
-use super::{CraterClass, FeatureSample, NoiseOctave, OctaveStrength, Photometry, RockClass, Scatter, TerrainConfig};
+use super::{
+    CraterClass, FeatureSample, GroundBase, NoiseOctave, OctaveStrength, Photometry, RockClass, Scatter, TerrainConfig,
+};
 use crate::stats::random_stream;
 use nalgebra::Vector2;
 use rand::RngExt;
+use std::sync::Arc;
 
 /// Terrain in the site frame: z up, origin on the ground at the landing point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Terrain {
-    octaves: Vec<NoiseOctave>,
-    craters: Vec<CraterClass>,
-    rocks: Vec<RockClass>,
+    pub(super) octaves: Vec<NoiseOctave>,
+    pub(super) craters: Vec<CraterClass>,
+    pub(super) rocks: Vec<RockClass>,
     mean_albedo: f64,
     photometry: Photometry,
     sky_light: f64,
-    height_at_origin_m: f64,
+    pub(super) height_at_origin_m: f64,
+    /// What is measured of the ground; the rest of this is added to it.
+    pub(super) base: Option<Arc<GroundBase>>,
 }
 
 /// The ground at one place.
@@ -60,6 +65,7 @@ impl Terrain {
             photometry: config.photometry,
             sky_light: config.sky_light,
             height_at_origin_m: 0.0,
+            base: None,
         };
         terrain.height_at_origin_m = terrain.height_m(0.0, 0.0);
         terrain
@@ -106,7 +112,8 @@ impl Terrain {
         y_m: f64,
         detail: &GroundDetail,
     ) -> GroundSample {
-        let mut sample = GroundSample { height_m: 0.0, gradient: Vector2::zeros(), albedo_change: 0.0 };
+        let flat = GroundSample { height_m: 0.0, gradient: Vector2::zeros(), albedo_change: 0.0 };
+        let mut sample = self.base.as_ref().map_or(flat, |base| base.sample(x_m, y_m, detail));
         for octave in self.octaves.iter().take_while(|o| o.wavelength_m >= detail.height_m) {
             let weight = visibility(octave.wavelength_m, detail.footprint_m);
             if weight <= 0.0 {

@@ -3,12 +3,8 @@
 use super::Terrain;
 use nalgebra::{Unit, Vector3};
 
-/// Steps assume that the ground is nowhere steeper than this, rise over run.
-const STEEPEST: f64 = 3.0;
 /// Rays end here.
 const FARTHEST_M: f64 = 300_000.0;
-/// No ground is above this height.
-const HIGHEST_M: f64 = 2_000.0;
 
 impl Terrain {
     /// Range in m along a unit direction to the first crossing of the ground from above, to about 1e-9 of the range;
@@ -18,13 +14,14 @@ impl Terrain {
             let p = origin_in_site_m + direction.as_ref() * range_m;
             p.z - self.height_m(p.x, p.y)
         };
-        let closing = STEEPEST * direction.xy().norm() - direction.z;
+        let closing = self.steepest(FARTHEST_M) * direction.xy().norm() - direction.z;
+        let highest_m = self.highest_m();
         let mut range_m = 0.0;
         let mut clear_m = clearance_m(0.0);
         if clear_m <= 0.0 || closing <= 0.0 {
             return None;
         }
-        while range_m < FARTHEST_M && (direction.z < 0.0 || origin_in_site_m.z + direction.z * range_m < HIGHEST_M) {
+        while range_m < FARTHEST_M && (direction.z < 0.0 || origin_in_site_m.z + direction.z * range_m < highest_m) {
             let next_m = range_m + (clear_m / closing).max(1e-9 * (1.0 + range_m));
             let next_clear_m = clearance_m(next_m);
             if next_clear_m <= 0.0 {

@@ -1,11 +1,13 @@
 //! From settings to a descent scene.
 
+use super::ground::{check_above_model, ground};
 use super::landmarks::landmarks_around_site;
 use super::{DescentConfig, DescentMotion, PolynomialGuidance};
 use crate::dataset::truth::{LanderState, Landmark};
 use crate::dataset::{CameraId, CameraSensor, DesignatedPoint, ImuNoise, ImuSample, InitialState};
 use crate::scene::{Imager, SceneCamera, SceneError, Terrain, View, sun_angular_radius_rad};
 use nalgebra::{Isometry3, Point3, Unit, Vector3};
+use std::path::Path;
 
 /// A descent: the ground, the pictures to take, and what the lander measures and believes.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,15 +42,20 @@ impl DescentScene {
         view(&self.motion, &camera.sensor, &(self.sun_in_site, self.sun_angular_radius_rad), t_ns)
     }
 
-    /// Scene of a configuration that [`DescentConfig::validate`] accepts.
+    /// Scene of a configuration that [`DescentConfig::validate`] accepts; relative paths start at `base_folder`.
     ///
     /// # Errors
     /// Names the key at fault if no schedule fits, if a camera would be in the ground, or if the first one does not see
     /// the site in its first picture.
-    pub fn new(config: &DescentConfig, imagers: &[Imager], seed: u64) -> Result<DescentScene, SceneError> {
+    pub fn new(
+        config: &DescentConfig,
+        imagers: &[Imager],
+        seed: u64,
+        base_folder: &Path,
+    ) -> Result<DescentScene, SceneError> {
         let path = PolynomialGuidance::new(&config.guidance);
         let motion = DescentMotion::new(path);
-        let terrain = Terrain::new(&config.terrain, seed);
+        let terrain = ground(config, seed, base_folder)?;
         let interval_ns = config.imu.interval_ns();
         let end_ns = (config.guidance.duration_s * 1e9).round() as i64;
         let times_ns =
@@ -67,6 +74,7 @@ impl DescentScene {
         };
         let cameras: Vec<SceneCamera> = (0..).zip(imagers).map(camera).collect();
         cameras.iter().try_for_each(|camera| check_above_ground(&camera.views, &terrain))?;
+        cameras.iter().try_for_each(|camera| check_above_model(&camera.views, &terrain))?;
         let designated = designated(config, &cameras[0], seed)?;
         let first_ns = times_ns[0];
         Ok(DescentScene {

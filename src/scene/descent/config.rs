@@ -3,7 +3,7 @@
 use super::{
     CameraMountConfig, FrameSchedule, GuidanceConfig, ImuConfig, InitialErrorConfig, PolynomialGuidance, SunConfig,
 };
-use crate::scene::{SceneError, TerrainConfig, limits};
+use crate::scene::{ElevationConfig, OrthoimageConfig, SceneError, TerrainConfig, limits};
 use serde::{Deserialize, Serialize};
 
 /// A powered descent to a landing site.
@@ -26,6 +26,12 @@ pub struct DescentConfig {
     pub sun: SunConfig,
     /// The ground.
     pub terrain: TerrainConfig,
+    /// A measured elevation model as the base of the ground (default none: the ground is procedural alone).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elevation: Option<ElevationConfig>,
+    /// A measured picture of the ground's albedo (default none).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub orthoimage: Option<OrthoimageConfig>,
 }
 
 impl Default for DescentConfig {
@@ -39,6 +45,8 @@ impl Default for DescentConfig {
             initial_error: InitialErrorConfig::default(),
             sun: SunConfig::default(),
             terrain: TerrainConfig::default(),
+            elevation: None,
+            orthoimage: None,
         }
     }
 }
@@ -58,6 +66,8 @@ impl DescentConfig {
         self.initial_error.validate().map_err(|e| e.under("initial_error"))?;
         self.sun.validate().map_err(|e| e.under("sun"))?;
         self.terrain.photometry.validate().map_err(|e| e.under("photometry").under("terrain"))?;
-        self.terrain.validate().map_err(|e| SceneError::from(e).under("terrain"))
+        self.terrain.validate().map_err(|e| SceneError::from(e).under("terrain"))?;
+        self.elevation.as_ref().map_or(Ok(()), |e| e.validate()).map_err(|e| e.under("elevation"))?;
+        self.orthoimage.as_ref().map_or(Ok(()), |o| o.validate()).map_err(|e| e.under("orthoimage"))
     }
 }

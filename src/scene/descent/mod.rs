@@ -4,6 +4,7 @@
 mod build;
 mod camera_mount;
 mod config;
+mod ground;
 mod guidance;
 mod imu_simulation;
 mod initial_error;

@@ -1,0 +1,34 @@
+//! Measured elevation models and orthoimages as the base of the terrain.
+//!
+//! A file (GeoTIFF, PDS3 image, TIFF, PNG, JPEG or bare samples) becomes a [`Raster`] on a map. A [`GroundBase`] moves it
+//! into the site frame, with the site's origin on the ground, and gives height, gradient and albedo at any place:
+//! bicubic between posts, with the planet's curvature if the map is in degrees, exact at the posts. Posts without data are
+//! filled from their surroundings and counted. Beyond the border the ground goes on with the border's heights; the path of
+//! a lander must stay inside. Procedural detail is added only below the posts' resolution, see [`Terrain`](super::Terrain).
+
+mod config;
+mod elevation_model;
+mod fill;
+mod geokeys;
+mod georeference;
+mod geotiff;
+mod grid;
+mod ground_base;
+mod map_place;
+mod orthoimage;
+mod pds;
+mod pds_label;
+mod pds_map;
+mod picture;
+mod raster;
+mod samples;
+mod site_map;
+
+pub use config::{AlbedoValues, ElevationConfig, MapSite, OrthoimageConfig, RasterFile, RasterGeometry};
+pub use elevation_model::{ElevationModel, ElevationSummary};
+pub use georeference::Georeference;
+pub use ground_base::GroundBase;
+pub use map_place::MapPlace;
+pub use orthoimage::Orthoimage;
+pub use raster::Raster;
+pub use samples::{RawLayout, SampleKind};

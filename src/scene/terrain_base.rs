@@ -1,0 +1,68 @@
+//! Terrain on a measured base: procedural detail only where the base has none, and bounds of the whole.
+
+use super::{GroundBase, Terrain, TerrainConfig};
+use nalgebra::Vector2;
+use std::sync::Arc;
+
+/// No procedural ground departs more than this from the height of a place, per m of distance from it.
+const PROCEDURAL_MEAN_SLOPE: f64 = 0.4;
+/// No procedural ground departs more than this from the height of a place, in m.
+const PROCEDURAL_RELIEF_M: f64 = 400.0;
+/// No procedural ground is steeper than this, rise over run.
+const PROCEDURAL_STEEPEST: f64 = 3.0;
+/// No procedural ground is above this height in m.
+const PROCEDURAL_HIGHEST_M: f64 = 2_000.0;
+
+impl Terrain {
+    /// Terrain on a measured base. Octaves of waves longer than two posts, and craters and rocks larger than two posts,
+    /// are left to the base: the octaves' lattice cells are half a wave.
+    pub fn on_base(config: &TerrainConfig, base: GroundBase, seed: u64) -> Self {
+        let mut terrain = Terrain::new(config, seed);
+        let resolved = |post_m: Option<f64>, detail: bool| if detail { post_m.unwrap_or(f64::INFINITY) } else { 0.0 };
+        let relief_m = resolved(base.elevation.as_ref().map(|e| e.post_m()), base.relief_detail);
+        let albedo_m = resolved(base.orthoimage.as_ref().map(|o| o.post_m()), base.albedo_detail);
+        for octave in &mut terrain.octaves {
+            octave.relief_m *= f64::from(octave.wavelength_m <= relief_m);
+            octave.albedo *= f64::from(octave.wavelength_m <= albedo_m);
+        }
+        terrain.octaves.retain(|o| o.relief_m != 0.0 || o.albedo != 0.0);
+        terrain.craters.retain(|c| c.scatter.smallest_m <= relief_m);
+        terrain.rocks.retain(|r| r.scatter.smallest_m <= relief_m);
+        let shown = |smallest_m: f64| f64::from(smallest_m <= albedo_m);
+        terrain.craters.iter_mut().for_each(|c| c.albedo_contrast *= shown(c.scatter.smallest_m));
+        terrain.rocks.iter_mut().for_each(|r| r.albedo_contrast *= shown(r.scatter.smallest_m));
+        terrain.base = Some(Arc::new(base));
+        terrain.height_at_origin_m = 0.0;
+        terrain.height_at_origin_m = terrain.height_m(0.0, 0.0);
+        terrain
+    }
+
+    /// What is measured of the ground.
+    pub fn base(&self) -> Option<&GroundBase> {
+        self.base.as_deref()
+    }
+
+    /// No ground in the square around a place, half an edge long on each side, departs more than this from the height at
+    /// the place, in m.
+    pub fn relief_bound_m(&self, middle_m: &Vector2<f64>, half_edge_m: f64) -> f64 {
+        let reach_m = std::f64::consts::SQRT_2 * half_edge_m;
+        let procedural_m = (PROCEDURAL_MEAN_SLOPE * reach_m).min(PROCEDURAL_RELIEF_M);
+        let Some(elevation) = self.base.as_ref().and_then(|b| b.elevation.as_ref()) else { return procedural_m };
+        let away_m = middle_m.norm();
+        let curvature_m = elevation.curvature_drop_m((away_m - reach_m).max(0.0), away_m + reach_m);
+        let base_m = (elevation.steepest(0.0) * reach_m).min(elevation.relief_m());
+        procedural_m + base_m + curvature_m
+    }
+
+    /// No ground within `distance_m` of the origin is steeper than this, rise over run.
+    pub fn steepest(&self, distance_m: f64) -> f64 {
+        let base = self.base.as_ref().and_then(|b| b.elevation.as_ref());
+        PROCEDURAL_STEEPEST + base.map_or(0.0, |e| e.steepest(distance_m))
+    }
+
+    /// No ground is above this height in m.
+    pub fn highest_m(&self) -> f64 {
+        let base = self.base.as_ref().and_then(|b| b.elevation.as_ref());
+        PROCEDURAL_HIGHEST_M + base.map_or(0.0, |e| e.highest_m())
+    }
+}
