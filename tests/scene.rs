@@ -4,6 +4,8 @@ mod bodies;
 mod body_formats;
 mod cameras;
 mod descent;
+mod elevation_files;
+mod elevation_model;
 mod meshes;
 mod scenarios;
 mod tumbling;

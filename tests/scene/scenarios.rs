@@ -28,7 +28,7 @@ fn every_shipped_scenario_reads_resolves_and_builds() {
         }
         count += 1;
     }
-    assert_eq!(count, 8);
+    assert_eq!(count, 9);
 }
 
 #[test]

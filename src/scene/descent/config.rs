@@ -28,10 +28,10 @@ pub struct DescentConfig {
     pub terrain: TerrainConfig,
     /// A measured elevation model as the base of the ground (default none: the ground is procedural alone).
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub elevation: Option<ElevationConfig>,
+    pub elevation: Option<Box<ElevationConfig>>,
     /// A measured picture of the ground's albedo (default none).
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub orthoimage: Option<OrthoimageConfig>,
+    pub orthoimage: Option<Box<OrthoimageConfig>>,
 }
 
 impl Default for DescentConfig {
