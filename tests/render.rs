@@ -3,6 +3,7 @@
 mod adapters;
 mod depth;
 mod detector;
+mod elevation;
 mod light;
 mod pixels;
 mod refusals;

@@ -11,6 +11,7 @@ mod flow;
 mod folder;
 mod frame;
 mod lists;
+mod measured;
 mod run;
 mod workers;
 

@@ -6,6 +6,7 @@ use super::flow::write_flows;
 use super::folder::DatasetFolder;
 use super::frame::FrameRecord;
 use super::lists::{write_lists, write_observation_lists};
+use super::measured::{note_filled_posts, write_elevation};
 use crate::dataset::{CameraId, Manifest, write_manifest};
 use crate::pipeline::track::checked_frames;
 use crate::pipeline::{PipelineError, Progress};
@@ -64,6 +65,8 @@ pub fn synthesize(request: &SynthesizeRequest, progress: &dyn Progress) -> Resul
     let frames: Vec<usize> = (0..available).filter(is_there).collect();
     let folder = DatasetFolder::begin(root, gpu.adapter_name(), &finished)?;
     write_lists(root, &scene, &frames)?;
+    write_elevation(root, &scene)?;
+    note_filled_posts(&scene, progress);
     let missing = missing_frames(&scene, &frames, &finished);
     let timing = draw_frames((&gpu, &scene, &scenario), &missing, &folder, (&mut finished, progress))?;
     write_observation_lists(root, &scene, &finished)?;
