@@ -1,5 +1,7 @@
 //! Tests of the room `dataset`.
 
+mod pictures;
+
 use image::{DynamicImage, GrayImage, ImageBuffer, Luma};
 use nalgebra::{Isometry3, Matrix2, Translation3, UnitQuaternion, Vector2, Vector3};
 use opnav::dataset::truth::{
@@ -33,7 +35,7 @@ fn close(a: &Isometry3<f64>, b: &Isometry3<f64>) -> bool {
 
 fn sensor(distortion: Distortion) -> CameraSensor {
     let camera = Camera { distortion, ..Camera::from_fov(64, 48, 1.0) };
-    CameraSensor { camera, spacecraft_from_camera: pose(2.0), rate_hz: Some(20.0) }
+    CameraSensor { camera, spacecraft_from_camera: pose(2.0), rate_hz: Some(20.0), bits: None }
 }
 
 /// The error's text, which has to name the file and, if given, the line and a word of the problem.

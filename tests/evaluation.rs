@@ -87,7 +87,12 @@ fn landing_bench() -> Bench {
     let bench = Bench::new("landing");
     let states: Vec<LanderState> = (0..=1000).map(|k| descent(k * SECOND_NS / 10)).collect();
     write_lander_states(&bench.root(), &states).expect("write");
-    let sensor = CameraSensor { camera: small_camera(), spacecraft_from_camera: lander_from_camera(), rate_hz: None };
+    let sensor = CameraSensor {
+        camera: small_camera(),
+        spacecraft_from_camera: lander_from_camera(),
+        rate_hz: None,
+        bits: None,
+    };
     write_camera_sensor(&bench.root().join("cam0/sensor.yaml"), &sensor).expect("write");
     let poses: Vec<StampedPose> =
         picture_times().map(|t_ns| StampedPose { t_ns, reference_from_moving: true_camera(t_ns) }).collect();
@@ -633,7 +638,12 @@ fn pair_line(from: i64, to: i64, rotation: &UnitQuaternion<f64>, status: &str) -
 /// A tracking result over turning views; `spoil` changes each true rotation camera(to)_from_camera(from).
 fn pairs_bench(count: i64, spoil: impl Fn(i64, UnitQuaternion<f64>) -> UnitQuaternion<f64>) -> Bench {
     let bench = Bench::new("tracking");
-    let sensor = CameraSensor { camera: small_camera(), spacecraft_from_camera: Isometry3::identity(), rate_hz: None };
+    let sensor = CameraSensor {
+        camera: small_camera(),
+        spacecraft_from_camera: Isometry3::identity(),
+        rate_hz: None,
+        bits: None,
+    };
     write_camera_sensor(&bench.root().join("cam0/sensor.yaml"), &sensor).expect("write");
     let pose = |k: i64| {
         let rotation = exp(&(Vector3::new(0.02, 0.1, -0.05) * k as f64)) * exp(&Vector3::new(0.5 * k as f64, 0.0, 0.1));

@@ -8,12 +8,33 @@ mod light;
 mod pixels;
 mod refusals;
 mod repetition;
+mod sensor_motion;
+mod sensor_noise;
+mod sensor_optics;
 mod texture;
 
 use nalgebra::{Isometry3, Matrix3, Unit, UnitQuaternion, Vector2, Vector3};
 use opnav::geometry::Camera;
-use opnav::render::{Gpu, RenderConfig, RenderedFrame, Renderer, World};
-use opnav::scene::{BodySurface, Mesh, Photometry, Terrain, TerrainConfig, View};
+use opnav::render::{Detector, Gpu, RenderConfig, RenderedFrame, Renderer, World};
+use opnav::scene::{BodySurface, Mesh, Photometry, SensorConfig, Terrain, TerrainConfig, View};
+
+/// A frame lit everywhere, its radiance from each pixel's place.
+fn lit_frame(side_px: u32, radiance: impl Fn(u32, u32) -> f32) -> RenderedFrame {
+    let count = (side_px * side_px) as usize;
+    RenderedFrame {
+        width_px: side_px,
+        height_px: side_px,
+        radiance: (0..side_px).flat_map(|v| (0..side_px).map(move |u| (u, v))).map(|(u, v)| radiance(u, v)).collect(),
+        depth_m: vec![1.0; count],
+        mask: vec![RenderedFrame::BODY | RenderedFrame::LIT; count],
+    }
+}
+
+/// The detector of a camera with square pixels that takes frames of that size.
+fn detector(frame: &RenderedFrame, config: &SensorConfig, seed: u64) -> Detector {
+    let camera = Camera::from_fov(frame.width_px, frame.height_px, 1.2);
+    Detector::new(&camera, config, seed, 0)
+}
 
 fn gpu() -> Gpu {
     Gpu::new(None).expect("a graphics adapter")

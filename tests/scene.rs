@@ -8,6 +8,7 @@ mod elevation_files;
 mod elevation_model;
 mod meshes;
 mod scenarios;
+mod sensors;
 mod tumbling;
 
 use opnav::scene::{DescentScene, Scenario, Scene, SceneError, TumblingScene};

@@ -12,6 +12,7 @@ mod imu;
 mod initial;
 mod journal;
 mod manifest;
+mod picture;
 mod raster;
 mod sensor;
 mod sequence;
@@ -27,6 +28,7 @@ pub use imu::{ImuNoise, ImuSample, read_imu, write_imu, write_imu_sensor};
 pub use initial::{InitialState, read_initial_state, write_initial_state};
 pub use journal::{Checksums, EarlierWork, Journal, read_earlier_work, sha256_hex};
 pub use manifest::{Manifest, read_manifest, write_manifest};
+pub use picture::GreyPicture;
 pub use raster::{
     encode_grey_png, encode_scalar_tiff, encode_vector_tiff, read_depth_tiff, read_mask_png, read_normals_tiff,
     write_depth_tiff, write_grey_png,

@@ -15,6 +15,8 @@ pub struct CameraSensor {
     pub spacecraft_from_camera: Isometry3<f64>,
     /// Nominal pictures a second, where the file says so.
     pub rate_hz: Option<f64>,
+    /// Bits a pixel that the pictures' numbers use, 1 to 16; all bits of their files if `None`.
+    pub bits: Option<u32>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -29,6 +31,8 @@ struct CameraFile {
     t_bs: Option<MatrixFile>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     rate_hz: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    bits: Option<u32>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -63,11 +67,14 @@ pub fn read_camera_sensor(path: &Path) -> Result<CameraSensor, DatasetError> {
     if file.rate_hz.is_some_and(|rate| !(rate > 0.0 && rate.is_finite())) {
         return Err(unusable("rate_hz must be a positive number".into()));
     }
+    if file.bits.is_some_and(|bits| !(1..=16).contains(&bits)) {
+        return Err(unusable("bits must be a whole number from 1 to 16".into()));
+    }
     let spacecraft_from_camera = match &file.t_bs {
         Some(matrix) => isometry(matrix).map_err(unusable)?,
         None => Isometry3::identity(),
     };
-    Ok(CameraSensor { camera, spacecraft_from_camera, rate_hz: file.rate_hz })
+    Ok(CameraSensor { camera, spacecraft_from_camera, rate_hz: file.rate_hz, bits: file.bits })
 }
 
 fn distortion(file: &CameraFile) -> Result<Distortion, String> {
@@ -126,6 +133,7 @@ pub fn write_camera_sensor(path: &Path, sensor: &CameraSensor) -> Result<(), Dat
         distortion_coefficients: coefficients,
         t_bs: Some(MatrixFile { cols: 4, rows: 4, data: matrix.transpose().as_slice().to_vec() }),
         rate_hz: sensor.rate_hz,
+        bits: sensor.bits,
     };
     let body = serde_yaml_ng::to_string(&file)
         .map_err(|e| DatasetError::Unusable { path: path.into(), problem: e.to_string() })?;

@@ -1,5 +1,6 @@
 //! Image sequences: our data sets, EuRoC folders, and plain folders of pictures.
 
+use super::picture::to_eight_bits;
 use super::{CameraSensor, DatasetError, read_camera_sensor};
 use crate::geometry::Camera;
 use image::GrayImage;
@@ -64,12 +65,12 @@ impl ImageSequence {
         Ok(ImageSequence { root, sensor, frames })
     }
 
-    /// Loads a picture as 8-bit grey and checks its size against the camera's.
+    /// Loads a picture as 8-bit grey, scaled by the camera's bits a pixel, and checks its size against the camera's.
     ///
     /// # Errors
     /// Names a picture that cannot be read or is of the wrong size.
     pub fn load(&self, frame: &Frame) -> Result<GrayImage, DatasetError> {
-        let picture = open_picture(&frame.path)?.to_luma8();
+        let picture = to_eight_bits(open_picture(&frame.path)?, self.sensor.bits);
         let camera = &self.sensor.camera;
         if picture.dimensions() != (camera.width_px, camera.height_px) {
             return Err(DatasetError::WrongSize {
@@ -103,7 +104,7 @@ fn sensor_from_fov(frame: &Frame, fov_rad: f64) -> Result<CameraSensor, DatasetE
     }
     let picture = open_picture(&frame.path)?;
     let camera = Camera::from_fov(picture.width(), picture.height(), fov_rad);
-    Ok(CameraSensor { camera, spacecraft_from_camera: Isometry3::identity(), rate_hz: None })
+    Ok(CameraSensor { camera, spacecraft_from_camera: Isometry3::identity(), rate_hz: None, bits: None })
 }
 
 fn list_frames(pictures: &Path) -> Result<Vec<Frame>, DatasetError> {

@@ -57,6 +57,11 @@ impl Renderer {
         Ok(Renderer { gpu: gpu.clone(), camera: *camera, config: *config, surface, shadow_map, grid, samples, shading })
     }
 
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
     /// Renders one view. The same view gives the same bytes on the same adapter, whatever was rendered before.
     ///
     /// # Errors

@@ -6,4 +6,4 @@ mod stream;
 
 pub use chi_squared::{ConsistencyBounds, normalized_error_squared};
 pub use estimate::Estimate;
-pub use stream::random_stream;
+pub use stream::{random_stream, sub_stream};

@@ -1,10 +1,10 @@
 //! What a front end finds in the pictures.
 
-use super::{gpu, interpolated, look_at, look_down, render, sphere};
+use super::{detector, gpu, interpolated, look_at, look_down, render, sphere};
 use image::GrayImage;
 use nalgebra::{Vector2, Vector3};
 use opnav::geometry::Camera;
-use opnav::render::{RenderConfig, Renderer, World, expose};
+use opnav::render::{RenderConfig, RenderedFrame, Renderer, World};
 use opnav::scene::{BodySurface, SensorConfig, SmallBody, Terrain, TerrainConfig};
 
 /// A picture minus its own wide mean.
@@ -54,6 +54,12 @@ fn texture_persists_over_a_tenth_of_scale() {
     }
 }
 
+/// The picture of a detector with default settings.
+fn detected(frame: &RenderedFrame) -> GrayImage {
+    let picture = detector(frame, &SensorConfig::default(), 1).expose(frame, 0);
+    picture.to_image().expect("a picture").into_luma8()
+}
+
 /// Harris corners above a hundredth of the best, the best of each 8×8 px block, with their blocks.
 fn harris_blocks(picture: &GrayImage) -> std::collections::BTreeSet<(u32, u32)> {
     let (width, height) = picture.dimensions();
@@ -92,7 +98,7 @@ fn every_height_has_hundreds_of_spread_corners() {
         ([0.0, 0.0], 5.0),
     ] {
         let frame = renderer.render(&look_down(&terrain, place, height_m)).expect("a picture");
-        let corners = harris_blocks(&expose(&frame, &SensorConfig::default(), 1, 0));
+        let corners = harris_blocks(&detected(&frame));
         let spread: std::collections::BTreeSet<_> = corners.iter().map(|(u, v)| (u / 8, v / 8)).collect();
         println!("{height_m} m: {} corners in {} of 64 parts", corners.len(), spread.len());
         assert!(corners.len() > 400 && spread.len() > 55, "{height_m} m: {} in {} of 64", corners.len(), spread.len());
@@ -107,7 +113,7 @@ fn a_body_has_hundreds_of_corners() {
         let eye = Vector3::new(1100.0, 300.0, 200.0);
         let view = look_at(eye, Vector3::zeros(), Vector3::z(), Vector3::new(1.0, 0.6, 0.5));
         let frame = render(World::Body(&body), &camera, &RenderConfig::default(), &view);
-        let corners = harris_blocks(&expose(&frame, &SensorConfig::default(), 1, 0)).len();
+        let corners = harris_blocks(&detected(&frame)).len();
         println!("{size_px} px: {corners} corners");
         assert!(corners > 300, "{corners} corners at {size_px} px");
     }

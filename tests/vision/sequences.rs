@@ -33,7 +33,8 @@ fn t_ns(k: usize) -> i64 {
 }
 
 fn write(folder: &Path, pictures: impl Iterator<Item = GrayImage>) -> ImageSequence {
-    let sensor = CameraSensor { camera: camera(), spacecraft_from_camera: Isometry3::identity(), rate_hz: None };
+    let sensor =
+        CameraSensor { camera: camera(), spacecraft_from_camera: Isometry3::identity(), rate_hz: None, bits: None };
     write_camera_sensor(&folder.join("cam0/sensor.yaml"), &sensor).unwrap();
     for (k, picture) in pictures.enumerate() {
         write_grey_png(&folder.join(format!("cam0/data/{}.png", t_ns(k))), &picture).unwrap();

@@ -6,7 +6,7 @@ use super::run::FrameKey;
 use super::workers::draw_and_finish;
 use crate::geometry::Camera;
 use crate::pipeline::{PipelineError, Progress};
-use crate::render::{Gpu, RenderConfig, RenderedFrame, Renderer, World};
+use crate::render::{Detector, Gpu, RenderConfig, RenderedFrame, Renderer, World};
 use crate::scene::{Scenario, Scene};
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -37,10 +37,11 @@ pub(super) fn draw_frames(
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS);
     let (start, mut drawing) = (Instant::now(), Duration::ZERO);
     let mut blank = BlankFrames::default();
+    let detectors = detectors(scene, scenario.seed);
     progress.begin("rendering", missing.len());
     let finish = |frame: DrawnFrame| {
         let key = frame.key;
-        finish_frame(frame, folder, (scene.landmarks(), scenario.seed)).map(|record| (key, record))
+        finish_frame(frame, folder, scene.landmarks()).map(|record| (key, record))
     };
     let done = draw_and_finish(threads, finish, |pass_on| {
         let mut studio: Option<(Camera, Renderer)> = None;
@@ -48,10 +49,11 @@ pub(super) fn draw_frames(
             let camera = &scene.cameras()[key.0];
             let view = camera.views[key.1];
             let begun = Instant::now();
-            let truth = renderer_for(&mut studio, gpu, scene, &camera.sensor.camera)?.render(&view)?;
+            let renderer = renderer_for(&mut studio, gpu, scene, &camera.sensor.camera)?;
+            let truth = renderer.expose(&camera.detector.shutter, view.t_ns, &|t_ns| scene.view_at(camera, t_ns))?;
             drawing += begun.elapsed();
             blank.look_at(&truth, *key);
-            if !pass_on(DrawnFrame { key: *key, camera, view, truth }) {
+            if !pass_on(DrawnFrame { key: *key, camera, detector: &detectors[key.0], view, truth }) {
                 break; // a thread failed and says why
             }
             progress.advance_to(done + 1);
@@ -63,6 +65,12 @@ pub(super) fn draw_frames(
     let done = done?;
     finished.extend(done.results);
     Ok(DrawTiming { drawn: missing.len(), wall: start.elapsed(), drawing, finishing: done.busy })
+}
+
+/// The detector of each camera.
+fn detectors(scene: &Scene, seed: u64) -> Vec<Detector> {
+    let cameras = (0..).zip(scene.cameras());
+    cameras.map(|(number, c)| Detector::new(&c.sensor.camera, &c.detector, seed, number)).collect()
 }
 
 /// The renderer of a camera; the one before is given up where its camera is another, so that only one holds memory.

@@ -5,7 +5,7 @@ use crate::dataset::truth::Landmark;
 use crate::dataset::truth::{LandmarkObservation, TruthRaster};
 use crate::dataset::{Checksums, DatasetError, encode_grey_png, encode_scalar_tiff};
 use crate::pipeline::PipelineError;
-use crate::render::{RenderedFrame, expose};
+use crate::render::{Detector, RenderedFrame};
 use crate::scene::{DepthPicture, SceneCamera, View, observe_landmarks};
 use image::{DynamicImage, GrayImage};
 
@@ -13,6 +13,7 @@ use image::{DynamicImage, GrayImage};
 pub(super) struct DrawnFrame<'a> {
     pub key: super::run::FrameKey,
     pub camera: &'a SceneCamera,
+    pub detector: &'a Detector,
     pub view: View,
     pub truth: RenderedFrame,
 }
@@ -35,12 +36,12 @@ pub(super) fn frame_files(camera: &SceneCamera, t_ns: i64) -> [String; 3] {
 pub(super) fn finish_frame(
     frame: DrawnFrame,
     folder: &DatasetFolder,
-    (landmarks, seed): (&[Landmark], u64),
+    landmarks: &[Landmark],
 ) -> Result<FrameRecord, PipelineError> {
-    let DrawnFrame { camera, view, truth, .. } = frame;
+    let DrawnFrame { camera, detector, view, truth, .. } = frame;
     let depth = DepthPicture { width_px: truth.width_px, depth_m: &truth.depth_m };
     let observations = observe_landmarks(landmarks, camera, &view, &depth);
-    let picture = DynamicImage::ImageLuma8(expose(&truth, &camera.detector, seed, view.t_ns));
+    let picture = detector.expose(&truth, view.t_ns).to_image().expect("a detector fills its picture");
     let files = pack(camera, view.t_ns, truth, &picture)?;
     Ok(FrameRecord { checksums: folder.write(&files)?, observations })
 }

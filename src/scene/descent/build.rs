@@ -68,6 +68,7 @@ impl DescentScene {
                 camera: imager.camera,
                 spacecraft_from_camera: imager.spacecraft_from_camera(&lander_from_nominal),
                 rate_hz: config.schedule.rate_hz(),
+                bits: imager.detector.stored_bits(),
             };
             let views = times_ns.iter().map(|t_ns| view(&motion, &sensor, &sun, *t_ns)).collect();
             SceneCamera { id: CameraId::single(number), sensor, detector: imager.detector, views }

@@ -72,7 +72,8 @@ impl TumblingScene {
 
     fn camera(&self, (number, imager): (u32, &Imager), rate_hz: f64) -> SceneCamera {
         let spacecraft_from_camera = imager.spacecraft_from_camera(&Isometry3::identity());
-        let sensor = CameraSensor { camera: imager.camera, spacecraft_from_camera, rate_hz: Some(rate_hz) };
+        let bits = imager.detector.stored_bits();
+        let sensor = CameraSensor { camera: imager.camera, spacecraft_from_camera, rate_hz: Some(rate_hz), bits };
         let views = self.states.iter().map(|state| self.view(&sensor, state)).collect();
         SceneCamera { id: CameraId::single(number), sensor, detector: imager.detector, views }
     }
