@@ -6,6 +6,7 @@ mod cameras;
 mod descent;
 mod elevation_files;
 mod elevation_model;
+mod elevation_scenarios;
 mod meshes;
 mod scenarios;
 mod sensors;

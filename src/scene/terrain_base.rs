@@ -48,10 +48,7 @@ impl Terrain {
         let reach_m = std::f64::consts::SQRT_2 * half_edge_m;
         let procedural_m = (PROCEDURAL_MEAN_SLOPE * reach_m).min(PROCEDURAL_RELIEF_M);
         let Some(elevation) = self.base.as_ref().and_then(|b| b.elevation.as_ref()) else { return procedural_m };
-        let away_m = middle_m.norm();
-        let curvature_m = elevation.curvature_drop_m((away_m - reach_m).max(0.0), away_m + reach_m);
-        let base_m = (elevation.steepest(0.0) * reach_m).min(elevation.relief_m());
-        procedural_m + base_m + curvature_m
+        procedural_m + elevation.relief_bound_m(middle_m, reach_m)
     }
 
     /// No ground within `distance_m` of the origin is steeper than this, rise over run.

@@ -391,8 +391,9 @@ fn known_heights_of_mars_lie_where_they_should() {
     let mola = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/datasets/mola"));
     let raster = Raster::read(&RasterFile::from_path("coprates.lbl"), mola).unwrap();
     let mut most_m = 0.0_f64;
-    // From the global map: line 393 of 720, sample 1185 of 1440, and line 416, sample 1207, counted from 1.
-    for (latitude_deg, longitude_deg, height_m) in [(-8.125, 296.125, 6121.0), (-13.875, 301.625 - 360.0, -5185.0)] {
+    // From the global map: the highest and the lowest post of the piece, and one on a wall.
+    let posts = [(-8.125, 296.125, 6121.0), (-13.875, 301.625 - 360.0, -5185.0), (-12.875, 299.875, 1210.0)];
+    for (latitude_deg, longitude_deg, height_m) in posts {
         let height_at = |latitude_deg: f64| {
             let site = MapPlace::Degrees { latitude_deg, longitude_deg };
             ElevationModel::new(raster.clone(), Some(&site)).unwrap().summary().site_height_m

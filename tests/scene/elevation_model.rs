@@ -244,3 +244,29 @@ fn orthoimages_change_the_albedo() {
     let detail = GroundDetail { height_m: 2e3, ..GroundDetail::default() };
     assert!(relative.sample(-100.0, 0.0, &detail).albedo_change.abs() < 0.6, "from afar it is blurred");
 }
+
+#[test]
+fn bounds_hold_and_are_local() {
+    let cliff = |c: f64, r: f64| if c > 60.0 { 900.0 } else { 0.0 } + 3.0 * (1.1 * r + 0.3 * c).sin();
+    let plane = ElevationModel::new(raster(metres(10.0), [121, 101], cliff), None).unwrap();
+    let round = ElevationModel::new(raster(degrees(0.01, [10.0, 60.0]), [121, 101], cliff), None).unwrap();
+    let mut random = random_stream(8, "bounds", 0);
+    for (model, reach_m) in [(&plane, 700.0), (&round, 40_000.0)] {
+        for _ in 0..500 {
+            let middle = Vector2::from_fn(|_, _| random.random_range(-reach_m..reach_m));
+            let radius_m = reach_m * 10.0_f64.powf(random.random_range(-3.0..0.0));
+            let bound_m = model.relief_bound_m(&middle, radius_m);
+            let at_m = model.sample(middle.x, middle.y, 0.0).0;
+            for _ in 0..20 {
+                let angle = random.random_range(0.0..std::f64::consts::TAU);
+                let p = middle + Vector2::new(angle.cos(), angle.sin()) * radius_m * random.random_range(0.0..1.0);
+                let departure_m = (model.sample(p.x, p.y, 0.0).0 - at_m).abs();
+                assert!(departure_m <= bound_m, "{departure_m} m in {radius_m} m around {middle}, bound {bound_m} m");
+                assert!(model.sample(p.x, p.y, 0.0).1.norm() <= model.steepest(1e5));
+            }
+        }
+    }
+    // Away from the cliff the ground is known to be gentle.
+    let (near_m, far_m) = (Vector2::new(10.0, 0.0), Vector2::new(-400.0, 0.0));
+    assert!(plane.relief_bound_m(&near_m, 20.0) > 900.0 && plane.relief_bound_m(&far_m, 20.0) < 40.0);
+}

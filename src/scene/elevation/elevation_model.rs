@@ -1,5 +1,6 @@
 //! An elevation model in the site frame.
 
+use super::block_bounds::{BlockBounds, Blocks};
 use super::fill::fill_unknown;
 use super::grid::Grid;
 use super::site_map::{Located, SiteMap};
@@ -13,9 +14,8 @@ use serde::Serialize;
 pub struct ElevationModel {
     map: SiteMap,
     heights: Grid,
+    blocks: Blocks,
     wraps: bool,
-    /// Bounds of the slope by east and north, rise over run.
-    steepest: Vector2<f64>,
     summary: ElevationSummary,
 }
 
@@ -41,6 +41,8 @@ pub struct ElevationSummary {
 const CUBIC_SLOPE: f64 = 2.0 * 1.25;
 /// Values between posts go beyond those of the posts by at most this share of their range on either side.
 const CUBIC_OVERSHOOT: f64 = 0.29;
+/// Up to this distance in m a curved map is nearly straight.
+const LOCAL_M: f64 = 20_000.0;
 /// Steps of Newton's method: the first leaves millimetres, the fourth nothing.
 const MOST_STEPS: usize = 12;
 
@@ -53,6 +55,7 @@ impl ElevationModel {
         let site_column_row = raster.site_column_row(site, "descent.elevation.site")?;
         let filled_posts = fill_unknown(raster.columns, &mut raster.values);
         let wraps = raster.georeference.wraps(raster.columns);
+        let blocks = Blocks::new(raster.columns, &raster.values, wraps);
         let heights = Grid::new(raster.columns, raster.values, wraps);
         let [column, row] = site_column_row;
         let site_height_m = heights.sample(column, row).value;
@@ -63,11 +66,9 @@ impl ElevationModel {
             post_m: map.post_m(),
             site: raster.georeference.place(site_column_row),
             site_height_m,
-            height_range_m: heights.range(),
+            height_range_m: [blocks.all().low, blocks.all().high].map(f64::from),
         };
-        let steps_m = heights.largest_steps();
-        let slope = |axis: usize| CUBIC_SLOPE * steps_m[axis] / map.post_m()[axis];
-        Ok(ElevationModel { map, wraps, steepest: Vector2::new(slope(0), slope(1)), heights, summary })
+        Ok(ElevationModel { map, wraps, blocks, heights, summary })
     }
 
     /// Height above the plane of the site in m, and its gradient by x and y, at a place in m. The gradient is that of
@@ -109,9 +110,12 @@ impl ElevationModel {
         self.summary.post_m[0].max(self.summary.post_m[1])
     }
 
-    /// No ground within `distance_m` of the site is steeper than this, rise over run.
+    /// No ground within `distance_m` of the site, 530 km at most, is steeper than this, rise over run.
     pub fn steepest(&self, distance_m: f64) -> f64 {
-        self.steepest.norm() + self.map.curvature_slope(distance_m)
+        let steps = self.blocks.all().steps.map(f64::from);
+        let [east_m, north_m] = self.summary.post_m;
+        let (east, north) = (steps[0] * self.map.narrowing() / east_m, steps[1] / north_m);
+        CUBIC_SLOPE * east.hypot(north) + self.map.curvature_slope(distance_m)
     }
 
     /// No ground is higher above the plane of the site than this, in m.
@@ -120,15 +124,22 @@ impl ElevationModel {
         high + CUBIC_OVERSHOOT * (high - low) - self.summary.site_height_m
     }
 
-    /// No two places of the ground differ by more than this in m, but for the planet's curvature.
-    pub fn relief_m(&self) -> f64 {
-        let [low, high] = self.summary.height_range_m;
-        (1.0 + 2.0 * CUBIC_OVERSHOOT) * (high - low)
-    }
-
-    /// How far the sphere through the site falls from the place nearest to the site to the farthest, m.
-    pub fn curvature_drop_m(&self, nearest_m: f64, farthest_m: f64) -> f64 {
-        self.map.curvature_m(nearest_m, 0.0) - self.map.curvature_m(farthest_m, 0.0)
+    /// No ground within `reach_m` of a place (m) departs more than this from the height there, in m.
+    pub fn relief_bound_m(&self, middle_m: &Vector2<f64>, reach_m: f64) -> f64 {
+        let away_m = middle_m.norm();
+        let fall_m = |distance_m: f64| self.map.curvature_m(distance_m, 0.0);
+        let curvature_m = fall_m((away_m - reach_m).max(0.0)) - fall_m(away_m + reach_m);
+        let span_m = |b: &BlockBounds| (1.0 + 2.0 * CUBIC_OVERSHOOT) * f64::from(b.high - b.low);
+        if reach_m > LOCAL_M {
+            return span_m(&self.blocks.all()).min(self.steepest(0.0) * reach_m) + curvature_m;
+        }
+        let (height_m, _) = self.sample(middle_m.x, middle_m.y, 0.0);
+        let at = self.map.locate(&middle_m.push(height_m));
+        let by_place = [at.by_place.row(0).norm(), at.by_place.row(1).norm()];
+        // A tenth more, for the map is curved.
+        let bounds = self.blocks.around([at.column, at.row], by_place.map(|b| 1.1 * b * reach_m));
+        let slope = CUBIC_SLOPE * 1.1 * (0..2).map(|k| f64::from(bounds.steps[k]) * by_place[k]).sum::<f64>();
+        span_m(&bounds).min(slope * reach_m) + curvature_m
     }
 
     /// The model in numbers.

@@ -60,32 +60,6 @@ impl Grid {
     pub(super) fn size(&self) -> [usize; 2] {
         [self.levels[0].columns, self.levels[0].rows]
     }
-
-    /// Largest differences between neighbours along a row and from row to row.
-    pub(super) fn largest_steps(&self) -> [f64; 2] {
-        let Level { columns, rows, values, wraps } = &self.levels[0];
-        let step = |a: usize, b: usize| f64::from(values[a] - values[b]).abs();
-        let mut most = [0.0_f64; 2];
-        for row in 0..*rows {
-            for column in 0..*columns {
-                let at = row * columns + column;
-                if column + 1 < *columns || *wraps {
-                    most[0] = most[0].max(step(at, row * columns + (column + 1) % columns));
-                }
-                if row + 1 < *rows {
-                    most[1] = most[1].max(step(at, at + columns));
-                }
-            }
-        }
-        most
-    }
-
-    /// Lowest and highest value at the posts.
-    pub(super) fn range(&self) -> [f64; 2] {
-        self.levels[0].values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
-            [low.min(f64::from(*v)), high.max(f64::from(*v))]
-        })
-    }
 }
 
 impl Level {

@@ -6,6 +6,7 @@
 //! filled from their surroundings and counted. Beyond the border the ground goes on with the border's heights; the path of
 //! a lander must stay inside. Procedural detail is added only below the posts' resolution, see [`Terrain`](super::Terrain).
 
+mod block_bounds;
 mod config;
 mod elevation_model;
 mod fill;

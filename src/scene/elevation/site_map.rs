@@ -117,6 +117,17 @@ impl SiteMap {
         }
     }
 
+    /// How much closer posts of a row come within 530 km of the site than at the site: meridians meet at the poles.
+    pub(super) fn narrowing(&self) -> f64 {
+        match &self.kind {
+            Kind::Plane { .. } => 1.0,
+            Kind::Sphere(sphere) => {
+                let farthest_rad = (sphere.site_latitude_rad.abs() + 530e3 / sphere.radius_m).min(1.55);
+                sphere.site_latitude_rad.cos() / farthest_rad.cos()
+            }
+        }
+    }
+
     /// Whether column and row depend on the height above the ground.
     pub(super) fn is_plane(&self) -> bool {
         matches!(self.kind, Kind::Plane { .. })
