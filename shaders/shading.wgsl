@@ -5,7 +5,8 @@ struct Shading {
     reference_from_camera: mat4x4<f32>, // rotation
     shadow_from_relative: mat4x4<f32>,  // relative = reference axes, camera at the origin, m
     sun: vec4<f32>,       // direction in reference axes; w = radiance of the sky over that of a sunlit white surface
-    intrinsics: vec4<f32>, // fu, fv, cu, cv in px
+    focal: vec4<f32>,     // focal lengths of the camera in px
+    raster: vec4<f32>,    // focal lengths and principal point of the pinhole picture in samples
     surface: vec4<f32>,   // mean albedo, unused, r.m.s. slope of the detail
     shadow: vec4<f32>,    // texel's width and height in m, depth of the map in m, tangent of the Sun's radius
     level: vec4<f32>,     // terrain: height above ground m, range over spacing, morph start, morph end
@@ -18,6 +19,10 @@ struct Shading {
 @group(0) @binding(1) var samples: texture_2d<f32>;
 @group(0) @binding(2) var shadow_map: texture_depth_2d;
 @group(0) @binding(3) var shadow_sampler: sampler;
+@group(0) @binding(4) var lens_map: texture_2d<f32>; // of each of the camera's samples its place in the pinhole picture
+
+// Whether the camera's samples differ from the pinhole picture's.
+override LENS: bool = false;
 
 struct Surface {
     relative: vec3<f32>, // m
@@ -36,6 +41,10 @@ const BODY: u32 = 1u;
 const LIT: u32 = 2u;
 const TERMINATOR: u32 = 4u;
 const TERMINATOR_COSINE: f32 = 0.17364818; // incidence of 80 to 100 degrees
+const BLOCKER_TAPS: u32 = 16u;
+const DISC_TAPS: u32 = 24u;
+const FARTHEST: f32 = 3.0e38; // m
+const ONE_SLOPE: f32 = 0.01; // relative difference of depth within one surface at an edge
 const FINEST_SPACING_LOG2: f32 = -8.0;
 const SHADE_SPACINGS: f32 = 16.0; // as in src/render/terrain_tile.rs
 
@@ -44,16 +53,78 @@ fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
     return vec4(f32((index << 1u) & 2u) * 2.0 - 1.0, f32(index & 2u) * 2.0 - 1.0, 0.5, 1.0);
 }
 
-// The only place where a sample of the target becomes a pixel coordinate; the centre of the top-left pixel is (0, 0).
-// See src/render/sample_grid.rs.
-fn pixel_from_sample(at: vec2<u32>) -> vec2<f32> {
-    let shift = select(0.0, 0.5, shading.counts.x == shading.counts.y);
-    return (vec2<f32>(at) + shift) / f32(shading.counts.y) - 0.5;
+// One sample of the camera: what is seen there between two depths, where, and how much of it.
+struct Seen {
+    numbers: vec3<f32>,   // normal or gradient, and albedo
+    in_camera: vec3<f32>, // m
+    share: f32,           // 0 where nothing is hit
 }
 
-fn place_in_camera(at: vec2<u32>, depth: f32) -> vec3<f32> {
-    let ideal = (pixel_from_sample(at) - shading.intrinsics.zw) / shading.intrinsics.xy;
-    return vec3(ideal * depth, depth);
+fn place_in_camera(raster: vec2<f32>, depth: f32) -> vec3<f32> {
+    return vec3((raster - shading.raster.zw) / shading.raster.xy * depth, depth);
+}
+
+fn seen_between(at: vec2<u32>, near: f32, far: f32) -> Seen {
+    if LENS {
+        return seen_through_lens(textureLoad(lens_map, at, 0).xy, near, far);
+    }
+    let sample = textureLoad(samples, at, 0);
+    let share = select(0.0, 1.0, sample.w > near && sample.w <= far);
+    return Seen(sample.xyz, place_in_camera(vec2<f32>(at), sample.w), share);
+}
+
+// Between the four samples around a place in the pinhole picture, those between the two depths by their bilinear weight;
+// 1/z is linear on a slope.
+fn seen_through_lens(raster: vec2<f32>, near: f32, far: f32) -> Seen {
+    let low = floor(raster);
+    let part = raster - low;
+    var sum = vec4(0.0); // numbers and 1/z
+    var share = 0.0;
+    for (var k = 0u; k < 4u; k++) {
+        let corner = vec2(k & 1u, k >> 1u);
+        let sample = textureLoad(samples, vec2<u32>(low) + corner, 0);
+        if sample.w > near && sample.w <= far {
+            let weights = select(1.0 - part, part, corner == vec2(1u));
+            let weight = weights.x * weights.y;
+            sum += weight * vec4(sample.xyz, 1.0 / sample.w);
+            share += weight;
+        }
+    }
+    if share <= 0.0 {
+        return Seen(vec3(0.0), vec3(0.0), 0.0);
+    }
+    return Seen(sum.xyz / share, place_in_camera(raster, share / sum.w), share);
+}
+
+// What lies at a pixel's centre: all that is seen there if it is one slope, or what the nearest sample belongs to.
+fn seen_at_center(at: vec2<u32>) -> Seen {
+    if !LENS {
+        return seen_between(at, 0.0, FARTHEST);
+    }
+    let raster = textureLoad(lens_map, at, 0).xy;
+    let depth = textureLoad(samples, vec2<u32>(raster + 0.5), 0).w;
+    if depth <= 0.0 {
+        return Seen(vec3(0.0), vec3(0.0), 0.0);
+    }
+    if is_one_slope(vec2<u32>(raster)) {
+        return seen_through_lens(raster, 0.0, FARTHEST);
+    }
+    return seen_through_lens(raster, depth * (1.0 - ONE_SLOPE), depth * (1.0 + ONE_SLOPE));
+}
+
+// Whether the four samples from `at` lie on one plane, for which 1/z is linear, within two samples' size.
+fn is_one_slope(at: vec2<u32>) -> bool {
+    let depths = vec4(
+        textureLoad(samples, at, 0).w,
+        textureLoad(samples, at + vec2(1u, 0u), 0).w,
+        textureLoad(samples, at + vec2(0u, 1u), 0).w,
+        textureLoad(samples, at + vec2(1u, 1u), 0).w,
+    );
+    if any(depths <= vec4(0.0)) {
+        return false;
+    }
+    let inverse = 1.0 / depths;
+    return abs(inverse.x + inverse.w - inverse.y - inverse.z) * depths.x * shading.raster.x < 2.0;
 }
 
 fn relative_place(in_camera: vec3<f32>) -> vec3<f32> {
@@ -62,7 +133,7 @@ fn relative_place(in_camera: vec3<f32>) -> vec3<f32> {
 
 fn footprint_m(relative: vec3<f32>, depth: f32, normal: vec3<f32>) -> f32 {
     let cosine = abs(dot(normalize(relative), normal));
-    return depth * inverseSqrt(shading.intrinsics.x * shading.intrinsics.y * max(cosine, 0.1));
+    return depth * inverseSqrt(shading.focal.x * shading.focal.y * max(cosine, 0.1));
 }
 
 // Share of the octave that the vertices of the terrain's mesh already carry.
@@ -136,21 +207,65 @@ fn sunlight(surface: Surface) -> f32 {
         -cosine / length(m[2].xyz),
     );
     let size = vec2<f32>(textureDimensions(shadow_map));
-    let slope = -across.xy / across.z / size; // change of depth a texel
+    let receiver = Receiver(at.xy * size, at.z, -across.xy / across.z / size);
+    let reach = shading.shadow.w * shading.shadow.z / shading.shadow.xy; // of the solar disc, texels per depth
+    if max(reach.x, reach.y) * at.z > 0.5 {
+        return penumbra(receiver, reach);
+    }
     var light = 0.0;
     for (var tap = 0u; tap < 4u; tap++) {
-        let shift = vec2(f32(tap & 1u), f32(tap >> 1u)) - 0.5;
-        light += lit_share(at.xy * size, at.xy * size + shift, at.z, slope);
+        light += lit_share(receiver, vec2(f32(tap & 1u), f32(tap >> 1u)) - 0.5);
     }
     return 0.25 * light;
 }
 
-// Share of the four texels around `tap` (in texels) that let light through to a plane through `place` at `depth`.
-fn lit_share(place: vec2<f32>, tap: vec2<f32>, depth: f32, slope: vec2<f32>) -> f32 {
+// A plane in the shadow map that light may fall on.
+struct Receiver {
+    at: vec2<f32>,    // texels
+    depth: f32,
+    slope: vec2<f32>, // change of the depth a texel
+}
+
+// Taps on a disc, evenly (Vogel, "A better way to construct the sunflower head", 1979).
+fn on_disc(tap: u32, taps: u32) -> vec2<f32> {
+    let angle = f32(tap) * 2.3999632;
+    return sqrt((f32(tap) + 0.5) / f32(taps)) * vec2(cos(angle), sin(angle));
+}
+
+// Share of the solar disc seen: what blocks it is taken to lie at the mean depth of the blockers around, from where the
+// disc's image has a certain size (Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH sketches 2005).
+fn penumbra(receiver: Receiver, reach: vec2<f32>) -> f32 {
+    let widest = max(reach * receiver.depth, vec2(1.0));
+    var blockers = 0.0;
+    var gap = 0.0;
+    for (var tap = 0u; tap < BLOCKER_TAPS; tap++) {
+        let shift = floor(receiver.at + widest * on_disc(tap, BLOCKER_TAPS)) + 0.5 - receiver.at;
+        let blocker = textureLoad(shadow_map, vec2<i32>(receiver.at + shift), 0);
+        let behind = receiver.depth + dot(receiver.slope, shift) - blocker;
+        if behind > 0.0 {
+            blockers += 1.0;
+            gap += behind;
+        }
+    }
+    if blockers == 0.0 {
+        return 1.0;
+    }
+    let radius = max(reach * gap / blockers, vec2(0.75));
+    var light = 0.0;
+    for (var tap = 0u; tap < DISC_TAPS; tap++) {
+        light += lit_share(receiver, radius * on_disc(tap, DISC_TAPS));
+    }
+    return light / f32(DISC_TAPS);
+}
+
+// Share of the four texels around a place `shift` texels away that let light through to the plane.
+fn lit_share(receiver: Receiver, shift: vec2<f32>) -> f32 {
+    let tap = receiver.at + shift;
     let low = floor(tap - 0.5);
     let share = tap - 0.5 - low;
     let blockers = textureGather(shadow_map, shadow_sampler, (low + 1.0) / vec2<f32>(textureDimensions(shadow_map)));
-    let first = depth + dot(slope, low + 0.5 - place);
+    let slope = receiver.slope;
+    let first = receiver.depth + dot(slope, low + 0.5 - receiver.at);
     let plane = first + vec4(slope.y, slope.x + slope.y, slope.x, 0.0);
     let lit = select(vec4(0.0), vec4(1.0), plane <= blockers);
     return mix(mix(lit.w, lit.z, share.x), mix(lit.x, lit.y, share.x), share.y);
@@ -194,20 +309,20 @@ struct Layer {
 fn layer_of(pixel: vec2<u32>, near: f32, far: f32) -> Layer {
     let taps = shading.counts.x;
     let stride = shading.counts.y;
-    var layer = Layer(0.0, vec3(0.0), vec3(0.0), 3.0e38, 0.0);
+    var layer = Layer(0.0, vec3(0.0), vec3(0.0), FARTHEST, 0.0);
     for (var k = 0u; k < taps * taps; k++) {
         let tap = vec2(k % taps, k / taps);
-        let at = pixel * stride + tap;
-        let sample = textureLoad(samples, at, 0);
-        if sample.w > near && sample.w <= far {
+        let seen = seen_between(pixel * stride + tap, near, far);
+        if seen.share > 0.0 {
             let outer = (tap == vec2(0u)) | (tap == vec2(taps - 1u));
             let halves = select(vec2(1.0), vec2(0.5), outer & vec2(taps != stride));
-            let share = halves.x * halves.y;
+            let share = halves.x * halves.y * seen.share;
+            let depth = seen.in_camera.z;
             layer.share += share;
-            layer.numbers += share * sample.xyz;
-            layer.in_camera += share * place_in_camera(at, sample.w);
-            layer.nearest = min(layer.nearest, sample.w);
-            layer.farthest = max(layer.farthest, sample.w);
+            layer.numbers += share * seen.numbers;
+            layer.in_camera += share * seen.in_camera;
+            layer.nearest = min(layer.nearest, depth);
+            layer.farthest = max(layer.farthest, depth);
         }
     }
     let inverse = 1.0 / max(layer.share, 1e-6);
@@ -220,7 +335,7 @@ fn layer_of(pixel: vec2<u32>, near: f32, far: f32) -> Layer {
 // Whether a pixel's samples lie on surfaces one behind the other, and not on one slope.
 fn is_torn(layer: Layer, surface: Surface) -> bool {
     let cosine = max(abs(dot(normalize(surface.relative), surface.smooth_normal)), 0.05);
-    let pixel_m = layer.in_camera.z / min(shading.intrinsics.x, shading.intrinsics.y);
+    let pixel_m = layer.in_camera.z / min(shading.focal.x, shading.focal.y);
     return layer.farthest - layer.nearest > pixel_m * (2.0 + 4.0 / cosine);
 }
 
@@ -232,48 +347,81 @@ fn surface_of(layer: Layer, is_terrain: bool) -> Surface {
     return body_surface(vec4(layer.numbers, layer.in_camera.z), relative);
 }
 
-fn smooth_normal_of(sample: vec4<f32>, is_terrain: bool) -> vec3<f32> {
-    return normalize(select(sample.xyz, vec3(-sample.xy, 1.0), is_terrain));
+fn smooth_normal_of(numbers: vec3<f32>, is_terrain: bool) -> vec3<f32> {
+    return normalize(select(numbers, vec3(-numbers.xy, 1.0), is_terrain));
 }
 
-fn shade(target_position: vec4<f32>, is_terrain: bool) -> Outputs {
+struct Shaded {
+    outputs: Outputs,
+    center: Surface, // at the pixel's centre, if anything is hit there
+}
+
+fn shade(target_position: vec4<f32>, is_terrain: bool) -> Shaded {
     let pixel = vec2<u32>(target_position.xy);
-    var out = Outputs(0.0, 0.0, 0u);
-    let center_at = pixel * shading.counts.y + shading.counts.x / 2u;
-    let center = textureLoad(samples, center_at, 0);
-    out.depth = center.w;
-    let all = layer_of(pixel, 0.0, 3.0e38);
+    var out: Shaded;
+    let center = seen_at_center(pixel * shading.counts.y + shading.counts.x / 2u);
+    let center_depth = select(0.0, center.in_camera.z, center.share > 0.0);
+    out.outputs.depth = center_depth;
+    let all = layer_of(pixel, 0.0, FARTHEST);
     if all.share <= 0.0 {
         return out;
     }
-    let surface = surface_of(all, is_terrain);
+    out.center = surface_of(all, is_terrain);
     var light = 0.0;
-    if is_torn(all, surface) {
+    if is_torn(all, out.center) {
         let middle = 0.5 * (all.nearest + all.farthest);
         let front = layer_of(pixel, 0.0, middle);
-        let back = layer_of(pixel, middle, 3.0e38);
+        let back = layer_of(pixel, middle, FARTHEST);
         let front_surface = surface_of(front, is_terrain);
         let back_surface = surface_of(back, is_terrain);
         let front_light = sunlight(front_surface);
         let back_light = sunlight(back_surface);
-        light = select(front_light, back_light, center.w > middle);
-        out.radiance = front.share * radiance(front_surface, front_light) + back.share * radiance(back_surface, back_light);
+        out.outputs.radiance =
+            front.share * radiance(front_surface, front_light) + back.share * radiance(back_surface, back_light);
+        light = front_light;
+        out.center = front_surface;
+        if center_depth > middle {
+            light = back_light;
+            out.center = back_surface;
+        }
     } else {
-        light = sunlight(surface);
-        out.radiance = all.share * radiance(surface, light);
+        light = sunlight(out.center);
+        out.outputs.radiance = all.share * radiance(out.center, light);
     }
-    if center.w > 0.0 {
-        out.mask = mask_of(smooth_normal_of(center, is_terrain), light);
+    if center_depth > 0.0 {
+        out.outputs.mask = mask_of(smooth_normal_of(center.numbers, is_terrain), light);
     }
     return out;
 }
 
 @fragment
 fn terrain(@builtin(position) position: vec4<f32>) -> Outputs {
-    return shade(position, true);
+    return shade(position, true).outputs;
 }
 
 @fragment
 fn body(@builtin(position) position: vec4<f32>) -> Outputs {
-    return shade(position, false);
+    return shade(position, false).outputs;
+}
+
+struct OutputsWithSurface {
+    @location(0) radiance: f32,
+    @location(1) depth: f32,
+    @location(2) mask: u32,
+    @location(3) surface: vec4<f32>, // normal in reference axes, albedo
+}
+
+fn with_surface(shaded: Shaded) -> OutputsWithSurface {
+    let out = shaded.outputs;
+    return OutputsWithSurface(out.radiance, out.depth, out.mask, vec4(shaded.center.normal, shaded.center.albedo));
+}
+
+@fragment
+fn terrain_with_surface(@builtin(position) position: vec4<f32>) -> OutputsWithSurface {
+    return with_surface(shade(position, true));
+}
+
+@fragment
+fn body_with_surface(@builtin(position) position: vec4<f32>) -> OutputsWithSurface {
+    return with_surface(shade(position, false));
 }

@@ -4,6 +4,7 @@ mod adapters;
 mod depth;
 mod detector;
 mod elevation;
+mod lens;
 mod light;
 mod pixels;
 mod refusals;
@@ -27,6 +28,7 @@ fn lit_frame(side_px: u32, radiance: impl Fn(u32, u32) -> f32) -> RenderedFrame 
         radiance: (0..side_px).flat_map(|v| (0..side_px).map(move |u| (u, v))).map(|(u, v)| radiance(u, v)).collect(),
         depth_m: vec![1.0; count],
         mask: vec![RenderedFrame::BODY | RenderedFrame::LIT; count],
+        surface: None,
     }
 }
 

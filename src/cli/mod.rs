@@ -1,6 +1,7 @@
 //! One file per subcommand: parse, call a pipeline, print.
 
 mod arguments;
+mod bench;
 mod demo;
 mod doctor;
 mod evaluate;

@@ -1,7 +1,7 @@
 //! The command line as a whole: which subcommand, how errors end.
 
 use super::progress::Terminal;
-use super::{demo, doctor, evaluate, land, render, report, track, tumble};
+use super::{bench, demo, doctor, evaluate, land, render, report, track, tumble};
 use clap::{Parser, Subcommand};
 use opnav::pipeline::PipelineError;
 use std::process::ExitCode;
@@ -27,6 +27,7 @@ enum Command {
     Tumble(tumble::Arguments),
     Evaluate(evaluate::Arguments),
     Report(report::Arguments),
+    Bench(bench::Arguments),
 }
 
 /// Parses the command line and runs it: exit 0 done, 1 could not do it, 2 wrong usage.
@@ -52,6 +53,7 @@ fn dispatch(command: Command, terminal: &Terminal) -> Result<ExitCode, PipelineE
         Command::Tumble(arguments) => tumble::run(&arguments, terminal)?,
         Command::Evaluate(arguments) => evaluate::run(&arguments, terminal)?,
         Command::Report(arguments) => report::run(&arguments, terminal)?,
+        Command::Bench(arguments) => bench::run(&arguments, terminal)?,
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -1,5 +1,6 @@
 //! One file per story: corridors that join the rooms and hold no mathematics.
 
+mod bench_render;
 mod demonstrate;
 mod doctor;
 mod error;
@@ -12,6 +13,7 @@ mod synthesize;
 mod track;
 mod tumble;
 
+pub use bench_render::{BenchRenderRequest, RenderTimes, bench_render};
 pub use demonstrate::{DemoOutcome, demonstrate};
 pub use doctor::{Diagnosis, diagnose};
 pub use error::PipelineError;
@@ -29,4 +31,5 @@ pub use crate::dataset::CameraSource;
 pub use crate::navigation::landing::{FilterKind, LandingConfig};
 pub use crate::navigation::landmark::Selector;
 pub use crate::navigation::tumbling::{Estimator, TumblingConfig};
+pub use crate::render::StageTime;
 pub use crate::vision::{FrontEndConfig, FrontEndMode};

@@ -1,6 +1,7 @@
 //! Everything that can stop a picture from being rendered.
 
 use crate::geometry::CameraError;
+use crate::scene::SceneError;
 use thiserror::Error;
 
 /// Why no picture could be rendered.
@@ -33,9 +34,12 @@ pub enum RenderError {
     /// A camera that cannot be rendered.
     #[error("cannot render with this camera: {0}")]
     Camera(#[from] CameraError),
-    /// A distorted camera.
-    #[error("pictures are rendered by a pinhole camera only: set the camera's distortion to none")]
-    DistortedCamera,
+    /// A lens that sees too much.
+    #[error(
+        "the camera's undistorted field reaches beyond 80° off the axis, and no plane picture holds that: crop the \
+         picture or check the distortion coefficients"
+    )]
+    LensTooWide,
     /// A picture larger than the adapter's textures.
     #[error(
         "a picture of {width_px}x{height_px} px with supersampling {supersampling} needs textures larger than this \
@@ -57,16 +61,9 @@ pub enum RenderError {
         /// What is wrong with it.
         problem: String,
     },
-    /// A parameter outside its range.
-    #[error("render.{key} is {value}: it must be {range}")]
-    Config {
-        /// Key as in the scenario file.
-        key: &'static str,
-        /// The value found.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
+    /// A setting outside its range.
+    #[error("render.{0}")]
+    Config(#[from] SceneError),
     /// The camera's pose or the Sun's direction is not a number.
     #[error("the view at {t_ns} ns holds a value that is not a finite number: check the trajectory")]
     ViewNotFinite {

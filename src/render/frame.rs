@@ -13,6 +13,9 @@ pub struct RenderedFrame {
     pub depth_m: Vec<f32>,
     /// Bits at each pixel's centre: [`RenderedFrame::BODY`], [`RenderedFrame::LIT`], [`RenderedFrame::TERMINATOR`].
     pub mask: Vec<u8>,
+    /// On request, at each pixel's centre: unit normal in the reference axes, detail finer than the mesh included, and
+    /// albedo; zeros where nothing is hit.
+    pub surface: Option<Vec<[f32; 4]>>,
 }
 
 impl RenderedFrame {

@@ -21,6 +21,8 @@ pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     adapter_name: String,
+    /// Whether the adapter can stamp commands with its time.
+    pub(super) timestamps: bool,
 }
 
 /// Every adapter that this machine offers, real ones first.
@@ -44,15 +46,18 @@ impl Gpu {
             return Err(RenderError::AdapterNotFound { wanted: adapter.unwrap_or("").into(), available });
         };
         let adapter_name = chosen.get_info().name;
+        let stamping = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS;
+        let timestamps = chosen.features().contains(stamping);
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("opnav"),
+            required_features: if timestamps { stamping } else { wgpu::Features::empty() },
             required_limits: chosen.limits(),
             ..wgpu::DeviceDescriptor::default()
         };
         let (device, queue) = pollster::block_on(chosen.request_device(&descriptor)).map_err(|e| {
             RenderError::Device { adapter: adapter_name.clone(), action: "open a device", problem: e.to_string() }
         })?;
-        Ok(Gpu { device, queue, adapter_name })
+        Ok(Gpu { device, queue, adapter_name, timestamps })
     }
 
     /// Name of the adapter.

@@ -6,7 +6,6 @@
 //! subtracted in f64 or in two f32 steps that lose nothing.
 
 mod body_geometry;
-mod config;
 mod enclosure;
 mod error;
 mod exposure;
@@ -14,6 +13,7 @@ mod frame;
 mod geometry_pass;
 mod gpu;
 mod gpu_data;
+mod lens;
 mod noise;
 mod photometry;
 mod projection;
@@ -31,10 +31,12 @@ mod terrain_levels;
 mod terrain_pool;
 mod terrain_tile;
 mod terrain_view;
+mod timing;
 
-pub use config::RenderConfig;
+pub use crate::scene::RenderConfig;
 pub use error::RenderError;
 pub use frame::RenderedFrame;
 pub use gpu::{AdapterReport, Gpu, list_adapters};
 pub use renderer::{Renderer, World};
 pub use sensor::Detector;
+pub use timing::StageTime;

@@ -1,13 +1,15 @@
 //! One picture: shadow map, samples, shading.
 
 use super::geometry_pass::Role;
-use super::sample_grid::SampleGrid;
-use super::shading::ShadingPass;
+use super::gpu_data::Shading;
+use super::lens::Lens;
+use super::shading::{ShadingKind, ShadingPass};
 use super::shadow::ShadowMap;
 use super::surface::Surface;
 use super::targets::SampleTarget;
+use super::timing::{StageTime, submit_timed};
 use super::{Gpu, RenderConfig, RenderError, RenderedFrame};
-use crate::geometry::{Camera, Distortion};
+use crate::geometry::Camera;
 use crate::scene::{SmallBody, Terrain, View};
 
 /// What pictures are taken of.
@@ -27,7 +29,7 @@ pub struct Renderer {
     config: RenderConfig,
     surface: Surface,
     shadow_map: ShadowMap,
-    grid: SampleGrid,
+    lens: Lens,
     samples: SampleTarget,
     shading: ShadingPass,
 }
@@ -40,21 +42,13 @@ impl Renderer {
     pub fn new(gpu: &Gpu, world: World, camera: &Camera, config: &RenderConfig) -> Result<Self, RenderError> {
         config.validate()?;
         camera.validate()?;
-        if camera.distortion != Distortion::None {
-            return Err(RenderError::DistortedCamera);
-        }
-        let (width_px, height_px) = (camera.width_px, camera.height_px);
-        let limit_px = gpu.device.limits().max_texture_dimension_2d;
-        let grid = SampleGrid { stride: config.supersampling, size_px: (width_px, height_px) };
-        let Some(size) = grid.size().filter(|(width, height)| *width.max(height) <= limit_px) else {
-            let supersampling = config.supersampling;
-            return Err(RenderError::PictureTooLarge { width_px, height_px, supersampling, limit_px });
-        };
-        let shadow_map = ShadowMap::new(gpu, config.shadow_map_px.min(limit_px));
-        let samples = SampleTarget::new(gpu, size);
+        let lens = Lens::new(gpu, camera, config.supersampling)?;
+        let shadow_map = ShadowMap::new(gpu, config.shadow_map_px.min(gpu.device.limits().max_texture_dimension_2d));
+        let samples = SampleTarget::new(gpu, lens.raster_grid.size().expect("the lens has checked its size"));
         let surface = Surface::new(gpu, world)?;
-        let shading = ShadingPass::new(gpu, grid.size_px, surface.shading_entry(), (&samples, &shadow_map));
-        Ok(Renderer { gpu: gpu.clone(), camera: *camera, config: *config, surface, shadow_map, grid, samples, shading })
+        let kind = ShadingKind { entry: surface.shading_entry(), surface_truth: config.surface_truth };
+        let shading = ShadingPass::new(gpu, &kind, &lens, (&samples, &shadow_map));
+        Ok(Renderer { gpu: gpu.clone(), camera: *camera, config: *config, surface, shadow_map, lens, samples, shading })
     }
 
     /// The camera.
@@ -68,19 +62,63 @@ impl Renderer {
     /// [`RenderError`] if the view cannot be a picture (camera inside the body or below the ground, Sun below the
     /// horizon), or if the adapter fails.
     pub fn render(&mut self, view: &View) -> Result<RenderedFrame, RenderError> {
+        let shading = self.prepare(view)?;
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        Stage::ALL.iter().for_each(|stage| self.record(*stage, &shading, &mut encoder));
+        self.gpu.queue.submit([encoder.finish()]);
+        self.shading.fetch(&self.gpu)
+    }
+
+    /// Renders one view stage by stage, waiting for each, and says how long each took.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn render_timed(&mut self, view: &View) -> Result<(RenderedFrame, Vec<StageTime>), RenderError> {
+        let (shading, prepared) = StageTime::measure("prepare", || self.prepare(view));
+        let (shading, mut times) = (shading?, vec![prepared]);
+        for stage in Stage::ALL {
+            times.push(submit_timed(&self.gpu, stage.name(), |encoder| self.record(stage, &shading, encoder))?);
+        }
+        let (frame, fetched) = StageTime::measure("read back", || self.shading.fetch(&self.gpu));
+        times.push(fetched);
+        Ok((frame?, times))
+    }
+
+    fn prepare(&mut self, view: &View) -> Result<Shading, RenderError> {
         let pose = &view.reference_from_camera;
         let numbers =
             pose.translation.vector.iter().chain(pose.rotation.coords.iter()).chain(view.sun_in_reference.iter());
         if !numbers.copied().all(f64::is_finite) {
             return Err(RenderError::ViewNotFinite { t_ns: view.t_ns });
         }
-        let shading =
-            self.surface.prepare(&self.gpu, view, (&self.camera, &self.config), (&self.grid, &self.shadow_map))?;
-        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.surface.draw(&mut self.shadow_map.begin(&mut encoder), Role::Shadow);
-        self.surface.draw(&mut self.samples.begin(&mut encoder), Role::Picture);
-        self.shading.record(&self.gpu, &mut encoder, &shading);
-        self.gpu.queue.submit([encoder.finish()]);
-        self.shading.fetch(&self.gpu)
+        self.surface.prepare(&self.gpu, view, (&self.camera, &self.config), (&self.lens, &self.shadow_map))
+    }
+
+    fn record(&self, stage: Stage, shading: &Shading, encoder: &mut wgpu::CommandEncoder) {
+        match stage {
+            Stage::Shadows => self.surface.draw(&mut self.shadow_map.begin(encoder), Role::Shadow),
+            Stage::Samples => self.surface.draw(&mut self.samples.begin(encoder), Role::Picture),
+            Stage::Shading => self.shading.record(&self.gpu, encoder, shading),
+        }
+    }
+}
+
+/// What the adapter does for a picture, in this order.
+#[derive(Debug, Clone, Copy)]
+enum Stage {
+    Shadows,
+    Samples,
+    Shading,
+}
+
+impl Stage {
+    const ALL: [Stage; 3] = [Stage::Shadows, Stage::Samples, Stage::Shading];
+
+    fn name(self) -> &'static str {
+        match self {
+            Stage::Shadows => "shadow map",
+            Stage::Samples => "surface samples",
+            Stage::Shading => "shading",
+        }
     }
 }

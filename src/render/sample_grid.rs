@@ -1,7 +1,7 @@
 //! Where the samples of a picture lie.
 
 use crate::geometry::Camera;
-use nalgebra::Matrix4;
+use nalgebra::{Matrix4, Vector2};
 
 /// A grid of samples, `stride` a pixel and axis, one of which lies at every pixel's centre: what the picture shows there
 /// is the truth. A pixel is the mean of its square by the midpoint rule (odd strides) or by the trapezoidal rule, whose
@@ -31,9 +31,14 @@ impl SampleGrid {
         Some((along(self.size_px.0)?, along(self.size_px.1)?))
     }
 
+    /// Pixel coordinates of a sample.
+    pub fn pixel_of_sample(&self, column: u32, row: u32) -> Vector2<f64> {
+        let shift = if self.is_shared() { 0.0 } else { 0.5 };
+        Vector2::new(f64::from(column), f64::from(row)).map(|i| (i + shift) / f64::from(self.stride) - 0.5)
+    }
+
     /// Reversed, infinite projection: depth is `NEAR_M / z`. Sample i of a shared grid lies at pixel i/stride - 1/2, of
-    /// another at (i + 1/2)/stride - 1/2; a target's sample i lies at i + 1/2. Here and in `pixel_from_sample` of
-    /// `shaders/shading.wgsl`, and nowhere else, are the two joined.
+    /// another at (i + 1/2)/stride - 1/2; a target's sample i lies at i + 1/2.
     pub fn clip_from_camera(&self, camera: &Camera) -> Matrix4<f64> {
         let shift = if self.is_shared() { 0.5 } else { 0.0 };
         let axis = |size_px: u32, focal_px: f64, center_px: f64| {

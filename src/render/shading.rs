@@ -2,11 +2,12 @@
 
 use super::geometry_pass::{buffer, uniform_entry};
 use super::gpu_data::Shading;
+use super::lens::Lens;
 use super::read_back::ReadBack;
 use super::shadow::ShadowMap;
 use super::targets::{SampleTarget, cleared, texture};
 use super::{Gpu, RenderError, RenderedFrame};
-use wgpu::TextureFormat::{R8Uint, R32Float};
+use wgpu::TextureFormat::{R8Uint, R32Float, Rgba32Float};
 
 /// The shader with the noise and the photometry that it calls.
 pub(super) const SOURCE: &str = concat!(
@@ -15,8 +16,23 @@ pub(super) const SOURCE: &str = concat!(
     include_str!("../../shaders/shading.wgsl")
 );
 
-/// Formats of radiance, depth and mask.
-const FORMATS: [(wgpu::TextureFormat, u32); 3] = [(R32Float, 4), (R32Float, 4), (R8Uint, 1)];
+/// Formats of radiance, depth and mask, and on request of normal and albedo, with their bytes a pixel.
+const FORMATS: [(wgpu::TextureFormat, u32); 4] = [(R32Float, 4), (R32Float, 4), (R8Uint, 1), (Rgba32Float, 16)];
+
+/// Which of the shader's variants is used.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ShadingKind {
+    /// Entry point: `terrain` or `body`.
+    pub entry: &'static str,
+    /// Whether normal and albedo are output too.
+    pub surface_truth: bool,
+}
+
+impl ShadingKind {
+    fn formats(&self) -> &'static [(wgpu::TextureFormat, u32)] {
+        &FORMATS[..if self.surface_truth { 4 } else { 3 }]
+    }
+}
 
 #[derive(Debug)]
 pub(super) struct ShadingPass {
@@ -28,8 +44,7 @@ pub(super) struct ShadingPass {
 }
 
 impl ShadingPass {
-    /// `entry` is the shader's entry point: `terrain` or `body`.
-    pub(super) fn new(gpu: &Gpu, size_px: (u32, u32), entry: &str, inputs: (&SampleTarget, &ShadowMap)) -> Self {
+    pub(super) fn new(gpu: &Gpu, kind: &ShadingKind, lens: &Lens, inputs: (&SampleTarget, &ShadowMap)) -> Self {
         let layout = group_layout(gpu);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniform = buffer(gpu, size_of::<Shading>() as u64, usage);
@@ -39,6 +54,7 @@ impl ShadingPass {
             wgpu::BindingResource::TextureView(&samples.samples),
             wgpu::BindingResource::TextureView(&shadow.view),
             wgpu::BindingResource::Sampler(&shadow.sampler),
+            wgpu::BindingResource::TextureView(&lens.map),
         ];
         let entries: Vec<_> =
             (0..).zip(entries).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
@@ -47,12 +63,13 @@ impl ShadingPass {
             layout: &layout,
             entries: &entries,
         });
-        let output = |(format, bytes)| {
+        let size_px = lens.grid.size_px;
+        let output = |&(format, bytes)| {
             let target = texture(gpu, size_px, format, wgpu::TextureUsages::COPY_SRC);
             (target, ReadBack::new(gpu, size_px.0, size_px.1, bytes))
         };
-        let outputs = FORMATS.into_iter().map(output).collect();
-        ShadingPass { pipeline: pipeline(gpu, &layout, entry), uniform, group, outputs, size_px }
+        let outputs = kind.formats().iter().map(output).collect();
+        ShadingPass { pipeline: pipeline(gpu, &layout, kind, lens.is_distorting()), uniform, group, outputs, size_px }
     }
 
     pub(super) fn record(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, shading: &Shading) {
@@ -87,6 +104,7 @@ impl ShadingPass {
             radiance: bytemuck::pod_collect_to_vec(&bytes[0]),
             depth_m: bytemuck::pod_collect_to_vec::<u8, f32>(&bytes[1]).into_iter().map(depth).collect(),
             mask: bytes[2].clone(),
+            surface: bytes.get(3).map(|b| bytemuck::pod_collect_to_vec(b)),
         })
     }
 }
@@ -107,11 +125,12 @@ fn group_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
             entry(1, samples),
             entry(2, image(wgpu::TextureSampleType::Depth)),
             entry(3, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering)),
+            entry(4, samples),
         ],
     })
 }
 
-fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, entry: &str) -> wgpu::RenderPipeline {
+fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, kind: &ShadingKind, distorting: bool) -> wgpu::RenderPipeline {
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("shading"),
         source: wgpu::ShaderSource::Wgsl(SOURCE.into()),
@@ -121,7 +140,9 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, entry: &str) -> wgpu::Ren
         bind_group_layouts: &[Some(layout)],
         immediate_size: 0,
     });
-    let targets = FORMATS.map(|(format, _)| Some(wgpu::ColorTargetState::from(format)));
+    let targets: Vec<_> = kind.formats().iter().map(|(f, _)| Some(wgpu::ColorTargetState::from(*f))).collect();
+    let entry = if kind.surface_truth { format!("{}_with_surface", kind.entry) } else { kind.entry.into() };
+    let constants = [("LENS", f64::from(u8::from(distorting)))];
     let compilation_options = wgpu::PipelineCompilationOptions::default;
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("shading"),
@@ -137,8 +158,8 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, entry: &str) -> wgpu::Ren
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module: &module,
-            entry_point: Some(entry),
-            compilation_options: compilation_options(),
+            entry_point: Some(&entry),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..compilation_options() },
             targets: &targets,
         }),
         multiview_mask: None,

@@ -2,7 +2,7 @@
 
 use super::Gpu;
 use super::geometry_pass::DEPTH_FORMAT;
-use nalgebra::{Matrix3, Matrix4, Unit, Vector3};
+use nalgebra::{Matrix3, Matrix4, Rotation3, Unit, Vector3};
 
 /// The map's texture.
 #[derive(Debug)]
@@ -12,12 +12,15 @@ pub(super) struct ShadowMap {
     side_px: u32,
 }
 
-/// The box that the map covers: its centre relative to the camera, half its side, and half its depth, in m.
+/// The box that the map covers.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ShadowBox {
+    /// Axes of the map in the reference frame, as rows: right, up, and away from the Sun.
+    pub axes: Matrix3<f64>,
+    /// Centre relative to the camera, reference axes, m.
     pub center_m: Vector3<f64>,
-    pub half_side_m: f64,
-    pub half_depth_m: f64,
+    /// Half of its sides along the axes, m.
+    pub half_m: Vector3<f64>,
 }
 
 impl ShadowMap {
@@ -39,9 +42,10 @@ impl ShadowMap {
         ShadowMap { view: texture.create_view(&wgpu::TextureViewDescriptor::default()), sampler, side_px }
     }
 
-    /// Edge of a texel in m.
-    pub(super) fn texel_m(&self, covered: &ShadowBox) -> f64 {
-        2.0 * covered.half_side_m / f64::from(self.side_px)
+    /// Width and height of a texel, and depth of the map, in m.
+    pub(super) fn texel_m(&self, covered: &ShadowBox) -> Vector3<f64> {
+        let size = f64::from(self.side_px);
+        covered.half_m.component_div(&Vector3::new(0.5 * size, 0.5 * size, 0.5))
     }
 
     pub(super) fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
@@ -68,14 +72,29 @@ pub(super) fn shadow_axes(sun_in_reference: &Unit<Vector3<f64>>) -> Matrix3<f64>
 }
 
 impl ShadowBox {
+    /// The smallest box, over how it is turned about the light, around places relative to the camera (reference axes, m).
+    pub(super) fn around(sun_in_reference: &Unit<Vector3<f64>>, places_m: &[Vector3<f64>]) -> ShadowBox {
+        const TURNS: u32 = 16;
+        let first = shadow_axes(sun_in_reference);
+        let turned = |k: u32| {
+            let angle_rad = f64::from(k) / f64::from(TURNS) * std::f64::consts::FRAC_PI_2;
+            let axes = Rotation3::from_axis_angle(&Vector3::z_axis(), angle_rad).matrix() * first;
+            let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+            for place_m in places_m {
+                let seen = axes * place_m;
+                (low, high) = (low.inf(&seen), high.sup(&seen));
+            }
+            ShadowBox { axes, center_m: axes.tr_mul(&(0.5 * (low + high))), half_m: 0.5 * (high - low) }
+        };
+        let area = |covered: &ShadowBox| covered.half_m.x * covered.half_m.y;
+        let smaller = |best: ShadowBox, other: ShadowBox| if area(&other) < area(&best) { other } else { best };
+        (1..TURNS).map(turned).fold(turned(0), smaller)
+    }
+
     /// From places relative to the camera (reference axes) to the map's clip space; depth runs from 0 at the Sun to 1.
-    pub(super) fn clip_from_relative(&self, axes: &Matrix3<f64>) -> Matrix4<f64> {
-        let scale = Matrix3::from_diagonal(&Vector3::new(
-            1.0 / self.half_side_m,
-            1.0 / self.half_side_m,
-            0.5 / self.half_depth_m,
-        ));
-        let linear = scale * axes;
+    pub(super) fn clip_from_relative(&self) -> Matrix4<f64> {
+        let scale = Vector3::new(1.0 / self.half_m.x, 1.0 / self.half_m.y, 0.5 / self.half_m.z);
+        let linear = Matrix3::from_diagonal(&scale) * self.axes;
         let offset = Vector3::new(0.0, 0.0, 0.5) - linear * self.center_m;
         let mut clip = linear.to_homogeneous();
         clip.fixed_view_mut::<3, 1>(0, 3).copy_from(&offset);

@@ -3,9 +3,9 @@
 use super::body_geometry::BodyGeometry;
 use super::geometry_pass::Role;
 use super::gpu_data::{Geometry, Shading, columns, dropped, four};
+use super::lens::Lens;
 use super::noise::octave_table;
 use super::photometry::photometry_data;
-use super::sample_grid::SampleGrid;
 use super::shadow::{ShadowBox, ShadowMap, shadow_axes, texture_from_clip};
 use super::terrain_geometry::TerrainGeometry;
 use super::terrain_levels::LevelRange;
@@ -78,15 +78,15 @@ impl Surface {
         gpu: &Gpu,
         view: &View,
         (camera, config): (&Camera, &RenderConfig),
-        (grid, shadow_map): (&SampleGrid, &ShadowMap),
+        (lens, shadow_map): (&Lens, &ShadowMap),
     ) -> Result<Shading, RenderError> {
         let placement = match &mut self.kind {
             Kind::Body(body) => place_body(body, view)?,
-            Kind::Terrain(terrain) => place_terrain(terrain, gpu, view, (camera, config))?,
+            Kind::Terrain(terrain) => place_terrain(terrain, gpu, view, (lens, config))?,
         };
         let rotation = view.reference_from_camera.rotation.to_homogeneous();
-        let shadow_clip = placement.covered.clip_from_relative(&shadow_axes(&view.sun_in_reference));
-        let picture_clip = grid.clip_from_camera(camera) * rotation.transpose();
+        let shadow_clip = placement.covered.clip_from_relative();
+        let picture_clip = lens.raster_grid.clip_from_camera(&lens.raster) * rotation.transpose();
         self.set_geometry(gpu, Role::Picture, &placement.geometry(view, &picture_clip));
         self.set_geometry(gpu, Role::Shadow, &placement.geometry(view, &shadow_clip));
 
@@ -98,12 +98,12 @@ impl Surface {
             reference_from_camera: columns(&rotation),
             shadow_from_relative: columns(&(texture_from_clip() * shadow_clip)),
             sun: four(&view.sun_in_reference, self.sky_light),
-            intrinsics: [camera.focal_px.x, camera.focal_px.y, camera.center_px.x, camera.center_px.y]
-                .map(|v| v as f32),
+            focal: [camera.focal_px.x, camera.focal_px.y, 0.0, 0.0].map(|v| v as f32),
+            raster: lens.raster_intrinsics().map(|v| v as f32).into(),
             surface: [self.mean_albedo, 0.0, self.detail_slope, 0.0].map(|v| v as f32),
-            shadow: [texel_m, texel_m, 2.0 * placement.covered.half_depth_m, 0.0].map(|v| v as f32),
+            shadow: four(&texel_m, view.sun_angular_radius_rad.tan()),
             level: placement.level(),
-            counts: [grid.taps(), grid.stride, count, 0],
+            counts: [lens.grid.taps(), lens.grid.stride, count, 0],
             photometry: photometry_data(&self.photometry),
             octaves,
         })
@@ -158,7 +158,8 @@ fn place_body(body: &BodyGeometry, view: &View) -> Result<Placement, RenderError
     body.check_view(view)?;
     let (center_m, radius_m) = body.bounding_sphere();
     let center_m = center_m - view.reference_from_camera.translation.vector;
-    let covered = ShadowBox { center_m, half_side_m: 1.02 * radius_m, half_depth_m: 1.1 * radius_m };
+    let axes = shadow_axes(&view.sun_in_reference);
+    let covered = ShadowBox { axes, center_m, half_m: Vector3::new(1.02, 1.02, 1.1) * radius_m };
     Ok(Placement { covered, levels: None, anchor_m: Vector3::zeros(), nearest_m: center_m.norm() - radius_m })
 }
 
@@ -166,12 +167,12 @@ fn place_terrain(
     terrain: &mut TerrainGeometry,
     gpu: &Gpu,
     view: &View,
-    (camera, config): (&Camera, &RenderConfig),
+    (lens, config): (&Lens, &RenderConfig),
 ) -> Result<Placement, RenderError> {
     let height_m = terrain.check_view(view)?;
-    let levels = LevelRange::new(height_m, camera.mean_focal_px(), config.vertex_spacing_px);
-    let covered = ground_box(camera, view, height_m);
-    terrain.prepare(gpu, &view_volume(camera, view, &covered), &levels)?;
+    let levels = LevelRange::new(height_m, lens.finest_focal_px, config.vertex_spacing_px);
+    let covered = ground_box(&lens.raster, view, height_m);
+    terrain.prepare(gpu, &view_volume(&lens.raster, view, &covered), &levels)?;
     let anchor = TerrainGeometry::anchor_m(&view.reference_from_camera.translation.vector);
     Ok(Placement { covered, levels: Some(levels), anchor_m: anchor.push(0.0), nearest_m: height_m })
 }

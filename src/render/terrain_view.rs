@@ -1,7 +1,7 @@
 //! Which ground a view needs: inside the picture, and inside the shadow map.
 
 use super::projection::side_planes_in_camera;
-use super::shadow::{ShadowBox, shadow_axes};
+use super::shadow::ShadowBox;
 use super::terrain_levels::ViewVolume;
 use crate::geometry::Camera;
 use crate::scene::View;
@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 pub(super) fn view_volume(camera: &Camera, view: &View, covered: &ShadowBox) -> ViewVolume {
     let rotation = view.reference_from_camera.rotation;
     // Gentle terrain: what stands a few per cent of the picture's width higher throws its shadow this far.
-    let reach_m = 2.0 + 0.06 * covered.half_side_m / view.sun_in_reference.z.max(0.05);
+    let reach_m = 2.0 + 0.06 * covered.half_m.xy().max() / view.sun_in_reference.z.max(0.05);
     ViewVolume {
         camera_in_site_m: view.reference_from_camera.translation.vector,
         sides_in_site: side_planes_in_camera(camera).map(|n| rotation * n),
@@ -23,8 +23,7 @@ pub(super) fn view_volume(camera: &Camera, view: &View, covered: &ShadowBox) -> 
 pub(super) fn ground_box(camera: &Camera, view: &View, height_m: f64) -> ShadowBox {
     const FARTHEST_HEIGHTS: f64 = 12.0;
     const RAYS: u32 = 16;
-    let axes = shadow_axes(&view.sun_in_reference);
-    let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+    let mut places_m = Vec::with_capacity(((RAYS + 1) * (RAYS + 1)) as usize);
     for k in 0..(RAYS + 1) * (RAYS + 1) {
         let share = |i: u32, size: u32| f64::from(i) / f64::from(RAYS) * f64::from(size) - 0.5;
         let u = share(k % (RAYS + 1), camera.width_px);
@@ -36,12 +35,12 @@ pub(super) fn ground_box(camera: &Camera, view: &View, height_m: f64) -> ShadowB
         );
         let ray = view.reference_from_camera.rotation * ideal;
         let steep = (-ray.z).max(ray.xy().norm() / FARTHEST_HEIGHTS).max(1e-9);
-        let place = Vector3::new(ray.x, ray.y, 0.0) * (height_m / steep) - Vector3::z() * height_m;
-        let seen = axes * place;
-        (low, high) = (low.inf(&seen), high.sup(&seen));
+        places_m.push(Vector3::new(ray.x, ray.y, 0.0) * (height_m / steep) - Vector3::z() * height_m);
     }
-    let half = 0.5 * (high - low);
-    let half_side_m = 1.05 * half.x.max(half.y) + 0.05 * height_m;
-    let half_depth_m = half.z + (2.0 * half_side_m).max(500.0);
-    ShadowBox { center_m: axes.tr_mul(&(0.5 * (low + high))), half_side_m, half_depth_m }
+    let fitted = ShadowBox::around(&view.sun_in_reference, &places_m);
+    let margin_m = 0.05 * height_m;
+    let (half_x_m, half_y_m) = (1.05 * fitted.half_m.x + margin_m, 1.05 * fitted.half_m.y + margin_m);
+    // Deep enough for relief that stands before and behind the ground in view.
+    let half_z_m = fitted.half_m.z + (2.0 * half_x_m.max(half_y_m)).max(500.0);
+    ShadowBox { half_m: Vector3::new(half_x_m, half_y_m, half_z_m), ..fitted }
 }

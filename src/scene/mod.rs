@@ -19,6 +19,7 @@ mod noise;
 mod noise_octave;
 mod optical_flow;
 mod photometry;
+mod render_config;
 mod scenario;
 mod scenario_file;
 mod sensor;
@@ -58,6 +59,7 @@ pub use noise::{
 pub use noise_octave::{NoiseOctave, OctaveStrength};
 pub use optical_flow::optical_flow;
 pub use photometry::{LunarWeight, PhotometricAngles, Photometry, oren_nayar_coefficients};
+pub use render_config::RenderConfig;
 pub use scenario::Scenario;
 pub use sensor::{Exposure, FixedPatternConfig, SensorConfig, ShutterConfig, VignettingConfig};
 pub use sunlight::sun_angular_radius_rad;

@@ -1,7 +1,9 @@
 //! A scenario: everything that makes a scene, with every default filled in.
 
 use super::scenario_file::ScenarioFile;
-use super::{DescentScene, Imager, ImagerConfig, Mission, Scene, SceneError, TruthConfig, TumblingScene, limits};
+use super::{
+    DescentScene, Imager, ImagerConfig, Mission, RenderConfig, Scene, SceneError, TruthConfig, TumblingScene, limits,
+};
 use std::path::Path;
 
 /// A scenario.
@@ -13,6 +15,8 @@ pub struct Scenario {
     pub imagers: Vec<ImagerConfig>,
     /// The truth to write beside the pictures: the table `[truth]`.
     pub truth: TruthConfig,
+    /// How finely the pictures are drawn: the table `[render]`.
+    pub render: RenderConfig,
     /// What happens.
     pub mission: Mission,
 }
@@ -55,6 +59,7 @@ impl Scenario {
         if i64::try_from(self.seed).is_err() {
             return Err(SceneError::out_of_range("seed", self.seed, "it must be below 9223372036854775808"));
         }
+        self.render.validate().map_err(|e| e.under("render"))?;
         for (index, imager) in self.imagers.iter().enumerate() {
             imager.validate((self.imagers.len() > 1).then_some(index))?;
         }

@@ -1,8 +1,8 @@
 //! Scenario files: TOML with defaults, overrides, and errors that name file and key.
 
 use super::{
-    CameraConfig, DescentConfig, DistortionConfig, ImagerConfig, Mission, Scenario, SceneError, SensorConfig,
-    TruthConfig, TumblingConfig,
+    CameraConfig, DescentConfig, DistortionConfig, ImagerConfig, Mission, RenderConfig, Scenario, SceneError,
+    SensorConfig, TruthConfig, TumblingConfig,
 };
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -25,6 +25,8 @@ pub(super) struct ScenarioFile {
     cameras: Vec<CameraTable>,
     #[serde(default)]
     truth: TruthConfig,
+    #[serde(default)]
+    render: RenderConfig,
     #[serde(skip_serializing_if = "Option::is_none")]
     descent: Option<DescentConfig>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -135,7 +137,13 @@ impl ScenarioFile {
         let sensor = self.sensor.unwrap_or_default();
         let tables = if self.cameras.is_empty() { vec![self.camera.unwrap_or_default()] } else { self.cameras };
         let imagers = tables.into_iter().map(|table| table.resolve(fov_deg, &sensor)).collect::<Result<_, _>>();
-        Ok(Scenario { seed: self.seed, imagers: imagers.map_err(unusable)?, truth: self.truth, mission })
+        Ok(Scenario {
+            seed: self.seed,
+            imagers: imagers.map_err(unusable)?,
+            truth: self.truth,
+            render: self.render,
+            mission,
+        })
     }
 
     /// The text of the file.
@@ -156,7 +164,16 @@ impl From<&Scenario> for ScenarioFile {
             [only] => (Some(table(only)), Some(only.sensor), Vec::new()),
             several => (None, None, several.iter().map(entry).collect()),
         };
-        ScenarioFile { seed: scenario.seed, camera, sensor, cameras, truth: scenario.truth, descent, tumbling }
+        ScenarioFile {
+            seed: scenario.seed,
+            camera,
+            sensor,
+            cameras,
+            truth: scenario.truth,
+            render: scenario.render,
+            descent,
+            tumbling,
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use opnav::stats::random_stream;
 use rand::RngExt;
 
 /// An eight-sided disc at `center`, facing the camera's way.
-fn add_disc(mesh: &mut Mesh, center: &Vector3<f64>, radius_m: f64) {
+pub(super) fn add_disc(mesh: &mut Mesh, center: &Vector3<f64>, radius_m: f64) {
     let first = mesh.vertices_m.len() as u32;
     mesh.vertices_m.push(*center);
     for k in 0..8 {
@@ -59,7 +59,7 @@ fn known_points_land_on_their_pixels() {
     assert!(flipped.count() < 5, "the picture is not symmetric");
 }
 
-fn centroid(frame: &RenderedFrame, near_px: &Vector2<f64>) -> Vector2<f64> {
+pub(super) fn centroid(frame: &RenderedFrame, near_px: &Vector2<f64>) -> Vector2<f64> {
     let (mut total, mut weight) = (Vector2::zeros(), 0.0);
     for (v, u) in (0..frame.height_px).flat_map(|v| (0..frame.width_px).map(move |u| (v, u))) {
         let pixel = Vector2::new(f64::from(u), f64::from(v));

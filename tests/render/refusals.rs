@@ -1,7 +1,7 @@
 //! Views and worlds that cannot be pictures.
 
 use super::{gpu, lobed, look_at, look_down, plain};
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Vector2, Vector3};
 use opnav::geometry::{Camera, Distortion};
 use opnav::render::{RenderConfig, RenderError, Renderer, World};
 use opnav::scene::{Mesh, SmallBody, Terrain, TerrainConfig, View};
@@ -28,8 +28,11 @@ fn views_that_cannot_be_pictures_are_refused() {
     assert!(matches!(around.render(&at(Vector3::new(200.0, 5.0, 0.0))), Err(RenderError::CameraInsideBody { .. })));
     around.render(&at(Vector3::new(0.0, 0.0, 260.0))).expect("inside the bounding sphere, outside the body");
 
-    let bent = Camera { distortion: Distortion::RadialTangential([0.1, 0.0, 0.0, 0.0]), ..camera };
-    assert!(matches!(Renderer::new(&gpu, World::Body(&body), &bent, &config), Err(RenderError::DistortedCamera)));
+    // 85° off the axis in the corners.
+    let half_diagonal_px = 0.5 * f64::from(camera.width_px).hypot(f64::from(camera.height_px));
+    let focal_px = Vector2::repeat(half_diagonal_px / 85_f64.to_radians());
+    let fisheye = Camera { distortion: Distortion::Equidistant([0.0; 4]), focal_px, ..camera };
+    assert!(matches!(Renderer::new(&gpu, World::Body(&body), &fisheye, &config), Err(RenderError::LensTooWide)));
     let huge = Camera::from_fov(200_000, 64, 1.0);
     assert!(matches!(
         Renderer::new(&gpu, World::Body(&body), &huge, &config),

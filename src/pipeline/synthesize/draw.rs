@@ -6,8 +6,8 @@ use super::run::FrameKey;
 use super::workers::draw_and_finish;
 use crate::geometry::Camera;
 use crate::pipeline::{PipelineError, Progress};
-use crate::render::{Detector, Gpu, RenderConfig, RenderedFrame, Renderer, World};
-use crate::scene::{Scenario, Scene};
+use crate::render::{Detector, Gpu, RenderedFrame, Renderer, World};
+use crate::scene::{RenderConfig, Scenario, Scene};
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
@@ -49,7 +49,7 @@ pub(super) fn draw_frames(
             let camera = &scene.cameras()[key.0];
             let view = camera.views[key.1];
             let begun = Instant::now();
-            let renderer = renderer_for(&mut studio, gpu, scene, &camera.sensor.camera)?;
+            let renderer = renderer_for(&mut studio, (gpu, scene), &camera.sensor.camera, &scenario.render)?;
             let truth = renderer.expose(&camera.detector.shutter, view.t_ns, &|t_ns| scene.view_at(camera, t_ns))?;
             drawing += begun.elapsed();
             blank.look_at(&truth, *key);
@@ -76,19 +76,19 @@ fn detectors(scene: &Scene, seed: u64) -> Vec<Detector> {
 /// The renderer of a camera; the one before is given up where its camera is another, so that only one holds memory.
 fn renderer_for<'a>(
     studio: &'a mut Option<(Camera, Renderer)>,
-    gpu: &Gpu,
-    scene: &Scene,
+    (gpu, scene): (&Gpu, &Scene),
     camera: &Camera,
+    config: &RenderConfig,
 ) -> Result<&'a mut Renderer, PipelineError> {
     if studio.as_ref().is_none_or(|(last, _)| last != camera) {
         *studio = None;
-        *studio = Some((*camera, Renderer::new(gpu, world(scene), camera, &RenderConfig::default())?));
+        *studio = Some((*camera, Renderer::new(gpu, world(scene), camera, config)?));
     }
     Ok(&mut studio.as_mut().expect("a renderer was just made").1)
 }
 
 /// What the renderer shows of a scene.
-fn world(scene: &Scene) -> World<'_> {
+pub(in crate::pipeline) fn world(scene: &Scene) -> World<'_> {
     match scene {
         Scene::Descent(scene) => World::Terrain(&scene.terrain),
         Scene::Tumbling(scene) => World::Body(&scene.body),
