@@ -128,12 +128,13 @@ fn a_global_map_goes_around() {
 fn unknown_posts_are_filled_smoothly_and_counted() {
     let plane = |c: f64, r: f64| 3.0 * c - 2.0 * r;
     let hole = |c: f64, r: f64| if (c - 20.0).hypot(r - 18.0) < 7.5 { f64::NAN } else { plane(c, r) };
-    let model = ElevationModel::new(raster(metres(10.0), [41, 37], hole), None).unwrap();
+    let site = MapPlace::Metres { x_m: 5000.0 + 300.0, y_m: -300.0 - 144.0 };
+    let model = ElevationModel::new(raster(metres(10.0), [41, 37], hole), Some(&site)).unwrap();
     assert_eq!(model.summary().filled_posts, 177);
-    let whole = ElevationModel::new(raster(metres(10.0), [41, 37], plane), None).unwrap();
+    let whole = ElevationModel::new(raster(metres(10.0), [41, 37], plane), Some(&site)).unwrap();
     assert_eq!(whole.summary().filled_posts, 0);
     for k in 0..200 {
-        let (x, y) = (f64::from(k % 20) * 9.0 - 90.0, f64::from(k / 20) * 8.0 - 40.0);
+        let (x, y) = (f64::from(k % 20) * 9.0 - 190.0, f64::from(k / 20) * 8.0 - 40.0);
         let filled_m = model.sample(x, y, 0.0).0 + model.summary().site_height_m;
         let true_m = whole.sample(x, y, 0.0).0 + whole.summary().site_height_m;
         assert!((filled_m - true_m).abs() < 2.0, "{filled_m} for {true_m} at {x}, {y}");
@@ -170,6 +171,13 @@ fn sites_outside_and_of_another_map_are_refused() {
     assert!(outside.contains("latitude 61"), "{outside}");
     let other = refused(metres(20.0), MapPlace::Degrees { latitude_deg: 0.0, longitude_deg: 0.0 });
     assert!(other.contains("map's middle is x 5140.0 m"), "{other}");
+}
+
+#[test]
+fn a_site_without_data_is_refused() {
+    let hole = |c: f64, r: f64| if (c - 7.0).hypot(r - 6.0) < 3.0 { f64::NAN } else { 5.0 };
+    let error = ElevationModel::new(raster(metres(20.0), [15, 13], hole), None).expect_err("refused").to_string();
+    assert!(error.contains("descent.elevation.site is x 5140.0 m") && error.contains("holds data"), "{error}");
 }
 
 fn base(model: ElevationModel, relief_detail: bool) -> GroundBase {
@@ -235,6 +243,9 @@ fn orthoimages_change_the_albedo() {
     let mean = (7.0 * 50.0 + 8.0 * 150.0) / 15.0;
     assert!((relative.albedo(-100.0, 0.0) - 0.2 * 50.0 / mean).abs() < 1e-6);
     assert!((relative.albedo(100.0, 0.0) - 0.2 * 150.0 / mean).abs() < 1e-6);
+    assert_eq!(relative.albedo(1e4, 0.0), 0.2, "far outside the ground has its mean albedo");
+    let (edge, beyond) = (relative.albedo(140.0, 0.0), relative.albedo(140.0 + 8.0 * 20.0, 0.0));
+    assert!((beyond - 0.5 * (edge + 0.2)).abs() < 1e-6, "half-way it is in between");
     let mut reflecting = picture();
     reflecting.values.iter_mut().for_each(|v| *v /= 500.0);
     let orthoimage = Orthoimage::new(reflecting, (None, 0.0), (AlbedoValues::Absolute, config.albedo)).unwrap();

@@ -50,9 +50,14 @@ impl ElevationModel {
     /// Model of a raster of heights in m with the site's origin at a place; in the middle without one.
     ///
     /// # Errors
-    /// Names `descent.elevation.site` if the place does not lie on the raster.
+    /// Names `descent.elevation.site` if the place does not lie on the raster, or where no post around it is known.
     pub fn new(mut raster: Raster, site: Option<&MapPlace>) -> Result<Self, SceneError> {
         let site_column_row = raster.site_column_row(site, "descent.elevation.site")?;
+        if raster.is_unknown_around(site_column_row) {
+            let place = raster.georeference.place(site_column_row);
+            let cure = "no post around it holds data: choose another place or another file";
+            return Err(SceneError::out_of_range("descent.elevation.site", place, cure));
+        }
         let filled_posts = fill_unknown(raster.columns, &mut raster.values);
         let wraps = raster.georeference.wraps(raster.columns);
         let blocks = Blocks::new(raster.columns, &raster.values, wraps);

@@ -67,4 +67,15 @@ impl Raster {
         }
         Ok(at)
     }
+
+    /// Whether not one of the four posts around a column and a row is known.
+    pub(super) fn is_unknown_around(&self, at: [f64; 2]) -> bool {
+        let clamped = |c: f64, last: usize| (c.max(0.0) as usize).min(last);
+        let corner = |k: usize| {
+            let column = clamped((at[0] + (k % 2) as f64).floor(), self.columns - 1);
+            let row = clamped((at[1] + (k / 2) as f64).floor(), self.rows() - 1);
+            self.values[row * self.columns + column].is_nan()
+        };
+        (0..4).all(corner)
+    }
 }

@@ -7,12 +7,16 @@ use super::{AlbedoValues, MapPlace, Raster};
 use crate::scene::SceneError;
 use nalgebra::Vector3;
 
+/// Pixels beyond the border within which the picture fades to the terrain's mean albedo.
+const FADE_PX: f64 = 16.0;
+
 /// Albedo between the pixels of a picture of the ground from above.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Orthoimage {
     map: SiteMap,
     /// Albedo over the terrain's mean albedo, minus 1.
     change: Grid,
+    wraps: bool,
     post_m: [f64; 2],
 }
 
@@ -40,14 +44,23 @@ impl Orthoimage {
         raster.values.iter_mut().for_each(|v| *v = (f64::from(*v) / mean - 1.0) as f32);
         let map = SiteMap::new(&raster.georeference, raster.columns, site_column_row, site.1);
         let wraps = raster.georeference.wraps(raster.columns);
-        Ok(Orthoimage { post_m: map.post_m(), change: Grid::new(raster.columns, raster.values, wraps), map })
+        let change = Grid::new(raster.columns, raster.values, wraps);
+        Ok(Orthoimage { post_m: map.post_m(), change, wraps, map })
     }
 
-    /// Relative change of the albedo at a place in the site frame, m, of waves of `finest_m` and more; 0 takes all.
+    /// Relative change of the albedo at a place in the site frame, m, of waves of `finest_m` and more; 0 takes all. It
+    /// fades to 0 within 16 pixels beyond the border.
     pub fn change(&self, place_m: &Vector3<f64>, finest_m: f64) -> f64 {
         let at = self.map.locate(place_m);
+        let [columns, rows] = self.change.size().map(|n| n as f64 - 1.0);
+        let beyond = |at: f64, last: f64| (-at).max(at - last).max(0.0);
+        let beyond_px = if self.wraps { 0.0 } else { beyond(at.column, columns) }.max(beyond(at.row, rows));
+        if beyond_px >= FADE_PX {
+            return 0.0;
+        }
         let post_m = self.post_m[0].min(self.post_m[1]);
-        self.change.sample_coarse(at.column, at.row, 0.5 * finest_m / post_m).value
+        let change = self.change.sample_coarse(at.column, at.row, 0.5 * finest_m / post_m).value;
+        change * (1.0 - beyond_px / FADE_PX)
     }
 
     /// Distance between pixels in m, the larger of both directions.

@@ -7,7 +7,7 @@ use std::path::Path;
 /// Radius of Mars in m: that of its IAU sphere.
 const MARS_RADIUS_M: f64 = 3_396_190.0;
 /// Most posts of a raster, so that it fits in memory.
-const MOST_POSTS: usize = 200_000_000;
+const MOST_POSTS: usize = 100_000_000;
 
 /// A raster as its file holds it, before any setting of the scenario.
 #[derive(Debug, Clone, PartialEq)]
