@@ -132,25 +132,41 @@ fn row_centroids(frame: &RenderedFrame, rows: std::ops::Range<u32>) -> Vec<(f64,
     rows.map(|v| (f64::from(v), centroid(v))).collect()
 }
 
+/// Slope, value at the picture's middle row, and largest residual of the straight line through centroids by rows.
+fn line_through(centroids: &[(f64, f64)]) -> (f64, f64, f64) {
+    let count = centroids.len() as f64;
+    let moment = |f: &dyn Fn(f64, f64) -> f64| centroids.iter().map(|(v, u)| f(v - 79.5, *u)).sum::<f64>() / count;
+    let (row, column) = (moment(&|v, _| v), moment(&|_, u| u));
+    let slope = (moment(&|v, u| v * u) - row * column) / (moment(&|v, _| v * v) - row * row);
+    let middle = column - slope * row;
+    let residual = centroids.iter().map(|(v, u)| (u - middle - slope * (v - 79.5)).abs()).fold(0.0, f64::max);
+    (slope, middle, residual)
+}
+
 #[test]
 fn a_rolling_shutter_shears_what_passes() {
     let rows = 30..130;
-    let upright = row_centroids(&exposed(post(), &shutter(0.0, 0.0), &turning(Vector3::zeros())), rows.clone());
-    assert!(upright.iter().all(|(_, u)| (u - 79.5).abs() < 0.02), "the post stands upright: {upright:?}");
+    let (slope, middle, _) =
+        line_through(&row_centroids(&exposed(post(), &shutter(0.0, 0.0), &turning(Vector3::zeros())), rows.clone()));
+    assert!(slope.abs() < 1e-4 && (middle - 79.5).abs() < 0.02, "the post stands upright: {slope}, {middle}");
     let (rate_rad_s, row_time_s) = (-0.1, 5e-4);
     // A turn of -ω about the axis that points down moves the picture to the right: f·ω px a second, in each row as long
     // after the middle one as rows were read since.
     let px_a_row = camera().focal_px.x * -rate_rad_s * row_time_s;
     for exposure_time_s in [0.0, 0.02] {
         let shutter = shutter(exposure_time_s, row_time_s);
-        let found =
-            row_centroids(&exposed(post(), &shutter, &turning(Vector3::new(0.0, rate_rad_s, 0.0))), rows.clone());
-        let worst =
-            |px_a_row: f64| found.iter().map(|(v, u)| (u - 79.5 - (v - 79.5) * px_a_row).abs()).fold(0.0, f64::max);
-        assert!(worst(px_a_row) < 0.03, "{exposure_time_s} s: {} px off the line", worst(px_a_row));
-        assert!(worst(-px_a_row) > 1.0, "the wrong direction goes unnoticed");
-        assert!(worst(1.05 * px_a_row) > 0.05, "five per cent more goes unnoticed");
+        let frame = exposed(post(), &shutter, &turning(Vector3::new(0.0, rate_rad_s, 0.0)));
+        let (slope, middle, residual) = line_through(&row_centroids(&frame, rows.clone()));
+        assert!((slope / px_a_row - 1.0).abs() < 0.01, "{exposure_time_s} s: {slope} px a row for {px_a_row}");
+        assert!((middle - 79.5).abs() < 0.02, "{exposure_time_s} s: the middle row's post is at {middle}");
+        // Eight samples a pixel place an edge to an eighth of a pixel.
+        assert!(residual < 0.125, "{exposure_time_s} s: {residual} px off the line");
+        // Negative controls: a time stamp of the first row, and a hundredth more time a row.
+        assert!(79.5 * px_a_row > 1.0 && (slope / (1.02 * px_a_row) - 1.0).abs() > 0.01);
     }
+    let other_way = exposed(post(), &shutter(0.0, row_time_s), &turning(Vector3::new(0.0, -rate_rad_s, 0.0)));
+    let (slope, ..) = line_through(&row_centroids(&other_way, rows));
+    assert!((slope / px_a_row + 1.0).abs() < 0.01, "the other turn shears the other way: {slope}");
 }
 
 #[test]
