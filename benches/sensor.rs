@@ -20,6 +20,7 @@ fn frame() -> RenderedFrame {
         radiance: (0..pixels).map(radiance).collect(),
         depth_m: vec![1.0; pixels],
         mask: vec![RenderedFrame::BODY | RenderedFrame::LIT; pixels],
+        surface: None,
     }
 }
 

@@ -4,6 +4,9 @@
 //! 2×2 a pixel (the picture), and one full-screen pass that shades them with detail finer than the mesh. Each shader in
 //! `shaders/` has the name of the file here that drives it. Positions reach the adapter relative to the camera,
 //! subtracted in f64 or in two f32 steps that lose nothing.
+//!
+//! What a shutter collects over time is a mean of such pictures ([`Renderer::expose`]); a [`Detector`] makes digital
+//! numbers of it, on the CPU.
 
 mod body_geometry;
 mod enclosure;
