@@ -75,7 +75,8 @@ fn imu_files_return() {
         specific_force_in_lander_m_s2: Vector3::new(-1.0, 3.711, 1e-9),
     };
     let samples: Vec<ImuSample> = (0..5).map(sample).collect();
-    let noise = ImuNoise { rate_hz: 100.0, gyroscope_noise_density: 4.8e-7, accelerometer_noise_density: 5e-4 };
+    let noise =
+        ImuNoise { rate_hz: 100.0, gyroscope_noise_density: 4.8e-7, accelerometer_noise_density: 5e-4, bias: None };
     write_imu(dir.path(), &samples).expect("write");
     write_imu_sensor(dir.path(), &noise).expect("write");
     assert_eq!(read_imu(dir.path()).expect("read"), (noise, samples));

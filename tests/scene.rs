@@ -26,13 +26,13 @@ fn scenario(text: &str) -> Result<Scenario, SceneError> {
 fn descent(text: &str) -> DescentScene {
     match scenario(text).unwrap().build(datasets()).unwrap() {
         Scene::Descent(scene) => *scene,
-        Scene::Tumbling(_) => panic!("not a descent"),
+        _ => panic!("not a descent"),
     }
 }
 
 fn tumbling(text: &str) -> TumblingScene {
     match scenario(text).unwrap().build(datasets()).unwrap() {
         Scene::Tumbling(scene) => *scene,
-        Scene::Descent(_) => panic!("not a tumbling body"),
+        _ => panic!("not a tumbling body"),
     }
 }

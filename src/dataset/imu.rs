@@ -26,6 +26,21 @@ pub struct ImuNoise {
     pub gyroscope_noise_density: f64,
     /// Accelerometer white noise, m/s²/√Hz.
     pub accelerometer_noise_density: f64,
+    /// How the biases wander, where the file says so.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub bias: Option<ImuBiasNoise>,
+}
+
+/// How the biases of an IMU wander, with EuRoC's key names.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ImuBiasNoise {
+    /// White noise that drives the gyroscope's bias, rad/s²/√Hz.
+    pub gyroscope_random_walk: f64,
+    /// White noise that drives the accelerometer's bias, m/s³/√Hz.
+    pub accelerometer_random_walk: f64,
+    /// Time constant in s with which both biases return to 0 (first-order Gauss-Markov); a random walk if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bias_time_constant_s: Option<f64>,
 }
 
 const HEADER: &str = "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],\

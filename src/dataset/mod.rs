@@ -24,7 +24,7 @@ pub use atomic::{remove_partial_files, write_atomically, write_text};
 pub use camera_id::CameraId;
 pub use designated::{DesignatedPoint, read_designated, write_designated};
 pub use error::DatasetError;
-pub use imu::{ImuNoise, ImuSample, read_imu, write_imu, write_imu_sensor};
+pub use imu::{ImuBiasNoise, ImuNoise, ImuSample, read_imu, write_imu, write_imu_sensor};
 pub use initial::{InitialState, read_initial_state, write_initial_state};
 pub use journal::{Checksums, EarlierWork, Journal, read_earlier_work, sha256_hex};
 pub use manifest::{Manifest, read_manifest, write_manifest};

@@ -1,6 +1,8 @@
 //! What happens in a scenario, and the scene that it describes.
 
-use super::{DescentConfig, DescentScene, SceneCamera, TumblingConfig, TumblingScene, View};
+use super::{
+    AttachmentConfig, AttachmentScene, DescentConfig, DescentScene, SceneCamera, TumblingConfig, TumblingScene, View,
+};
 use crate::dataset::truth::Landmark;
 
 /// What happens in a scenario.
@@ -10,6 +12,8 @@ pub enum Mission {
     Descent(DescentConfig),
     /// A tumbling small body: the table `[tumbling]`.
     Tumbling(TumblingConfig),
+    /// Linked spacecraft over a site: the table `[attachment]`.
+    Attachment(AttachmentConfig),
 }
 
 /// A scene that a scenario describes.
@@ -19,6 +23,8 @@ pub enum Scene {
     Descent(Box<DescentScene>),
     /// A tumbling small body.
     Tumbling(Box<TumblingScene>),
+    /// Linked spacecraft over a site.
+    Attachment(Box<AttachmentScene>),
 }
 
 impl Scene {
@@ -27,6 +33,7 @@ impl Scene {
         match self {
             Scene::Descent(scene) => &scene.cameras,
             Scene::Tumbling(scene) => &scene.cameras,
+            Scene::Attachment(scene) => &scene.cameras,
         }
     }
 
@@ -35,6 +42,7 @@ impl Scene {
         match self {
             Scene::Descent(scene) => &scene.landmarks,
             Scene::Tumbling(scene) => &scene.landmarks,
+            Scene::Attachment(scene) => &scene.landmarks,
         }
     }
 
@@ -43,6 +51,7 @@ impl Scene {
         match self {
             Scene::Descent(scene) => scene.view_at(camera, t_ns),
             Scene::Tumbling(scene) => scene.view_at(camera, t_ns),
+            Scene::Attachment(scene) => scene.view_at(camera, t_ns),
         }
     }
 }

@@ -5,6 +5,7 @@
 //! picture of and carry their exact truth. Every setting has a documented default, its unit in its name, and one
 //! `validate()`; unknown keys are refused.
 
+mod attachment;
 mod body;
 mod camera_config;
 mod crater;
@@ -22,6 +23,7 @@ mod photometry;
 mod render_config;
 mod scenario;
 mod scenario_file;
+mod sensed_motion;
 mod sensor;
 mod sunlight;
 mod terrain;
@@ -35,6 +37,10 @@ mod truth_config;
 mod tumbling;
 mod view;
 
+pub use attachment::{
+    ApolloGuidance, ApproachConfig, AttachmentConfig, AttachmentNode, AttachmentScene, BodyConfig, FlexConfig,
+    NodeErrorConfig, NodeImuConfig, NodeMotion, Sinusoids, TurningBody,
+};
 pub use body::{
     AlbedoImage, AlbedoMapFile, BodySource, BodySurface, GlobeMap, LengthUnit, MassProperties, Mesh, MeshAlbedo,
     MeshFile, PictureEdge, ProceduralBody, SmallBody, SurfaceConfig,
@@ -44,7 +50,7 @@ pub use crater::{CraterClass, FeatureSample};
 pub use depth_picture::{DepthPicture, observe_landmarks};
 pub use descent::{
     CameraMountConfig, DescentConfig, DescentMotion, DescentScene, FrameSchedule, GuidanceConfig, GuidanceProfile,
-    ImuConfig, InitialErrorConfig, PolynomialGuidance, SunConfig, ideal_samples,
+    ImuConfig, InitialErrorConfig, PolynomialGuidance, SunConfig,
 };
 pub use elevation::{
     AlbedoValues, ElevationConfig, ElevationModel, ElevationSummary, Georeference, GroundBase, MapPlace, MapSite,
@@ -61,6 +67,7 @@ pub use optical_flow::optical_flow;
 pub use photometry::{LunarWeight, PhotometricAngles, Photometry, oren_nayar_coefficients};
 pub use render_config::RenderConfig;
 pub use scenario::Scenario;
+pub use sensed_motion::{SensedMotion, ideal_samples};
 pub use sensor::{Exposure, FixedPatternConfig, SensorConfig, ShutterConfig, VignettingConfig};
 pub use sunlight::sun_angular_radius_rad;
 pub use terrain::{GroundDetail, GroundSample, Terrain};

@@ -2,7 +2,8 @@
 
 use super::scenario_file::ScenarioFile;
 use super::{
-    DescentScene, Imager, ImagerConfig, Mission, RenderConfig, Scene, SceneError, TruthConfig, TumblingScene, limits,
+    AttachmentScene, DescentScene, Imager, ImagerConfig, Mission, RenderConfig, Scene, SceneError, TruthConfig,
+    TumblingScene, limits,
 };
 use std::path::Path;
 
@@ -65,6 +66,7 @@ impl Scenario {
         }
         match &self.mission {
             Mission::Descent(descent) => descent.validate().map_err(|e| e.under("descent")),
+            Mission::Attachment(attachment) => attachment.validate().map_err(|e| e.under("attachment")),
             Mission::Tumbling(tumbling) => {
                 let first = &self.imagers[0].camera;
                 let half_side_px = 0.5 * f64::from(first.width_px.min(first.height_px));
@@ -86,6 +88,9 @@ impl Scenario {
         match &self.mission {
             Mission::Descent(descent) => {
                 DescentScene::new(descent, &imagers, self.seed, base_folder).map(|s| Scene::Descent(Box::new(s)))
+            }
+            Mission::Attachment(attachment) => {
+                AttachmentScene::new(attachment, &imagers, self.seed).map(|s| Scene::Attachment(Box::new(s)))
             }
             Mission::Tumbling(tumbling) => {
                 TumblingScene::new(tumbling, &imagers, self.seed, base_folder).map(|s| Scene::Tumbling(Box::new(s)))

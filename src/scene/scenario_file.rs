@@ -1,7 +1,7 @@
 //! Scenario files: TOML with defaults, overrides, and errors that name file and key.
 
 use super::{
-    CameraConfig, DescentConfig, DistortionConfig, ImagerConfig, Mission, RenderConfig, Scenario, SceneError,
+    AttachmentConfig, CameraConfig, DescentConfig, DistortionConfig, ImagerConfig, Mission, RenderConfig, Scenario, SceneError,
     SensorConfig, TruthConfig, TumblingConfig,
 };
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use std::path::Path;
 use toml::{Table, Value};
 
 const DESCENT_FOV_DEG: f64 = 90.0;
-const TUMBLING_FOV_DEG: f64 = 30.0;
+const BODY_FOV_DEG: f64 = 30.0;
 
 /// A scenario as it stands in a file.
 #[derive(Debug, Serialize, Deserialize)]
@@ -31,6 +31,8 @@ pub(super) struct ScenarioFile {
     descent: Option<DescentConfig>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tumbling: Option<TumblingConfig>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    attachment: Option<AttachmentConfig>,
 }
 
 /// A camera as it stands in a file: the default field of view depends on the mission, and none may stand beside focal
@@ -123,14 +125,20 @@ impl ScenarioFile {
     /// Fills in what depends on the mission.
     pub fn resolve(self, path: &Path) -> Result<Scenario, SceneError> {
         let unusable = |problem: &str| SceneError::Unusable { path: path.into(), problem: problem.into() };
-        let (mission, fov_deg) = match (self.descent, self.tumbling) {
-            (Some(descent), None) => (Mission::Descent(descent), DESCENT_FOV_DEG),
-            (None, Some(tumbling)) => (Mission::Tumbling(tumbling), TUMBLING_FOV_DEG),
-            (None, None) => return Err(unusable("it has neither a table [descent] nor a table [tumbling]: add one")),
-            (Some(_), Some(_)) => {
-                return Err(unusable("it has both a table [descent] and a table [tumbling]: drop one"));
-            }
-        };
+        let missions: Vec<(Mission, f64)> = [
+            self.descent.map(|descent| (Mission::Descent(descent), DESCENT_FOV_DEG)),
+            self.tumbling.map(|tumbling| (Mission::Tumbling(tumbling), BODY_FOV_DEG)),
+            self.attachment.map(|attachment| (Mission::Attachment(attachment), BODY_FOV_DEG)),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        let [(mission, fov_deg)] = <[_; 1]>::try_from(missions).map_err(|found| {
+            unusable(match found.len() {
+                0 => "it has neither a table [descent], [tumbling] nor [attachment]: add one",
+                _ => "it has more than one of the tables [descent], [tumbling] and [attachment]: keep one",
+            })
+        })?;
         if self.camera.is_some() && !self.cameras.is_empty() {
             return Err(unusable("it has both a table [camera] and tables [[cameras]]: drop one"));
         }
@@ -154,10 +162,12 @@ impl ScenarioFile {
 
 impl From<&Scenario> for ScenarioFile {
     fn from(scenario: &Scenario) -> Self {
-        let (descent, tumbling) = match &scenario.mission {
-            Mission::Descent(descent) => (Some(descent.clone()), None),
-            Mission::Tumbling(tumbling) => (None, Some(tumbling.clone())),
-        };
+        let (mut descent, mut tumbling, mut attachment) = (None, None, None);
+        match &scenario.mission {
+            Mission::Descent(config) => descent = Some(config.clone()),
+            Mission::Tumbling(config) => tumbling = Some(config.clone()),
+            Mission::Attachment(config) => attachment = Some(config.clone()),
+        }
         let table = |imager: &ImagerConfig| CameraTable::from(imager.camera);
         let entry = |imager: &ImagerConfig| CameraTable { sensor: Some(imager.sensor), ..table(imager) };
         let (camera, sensor, cameras) = match scenario.imagers.as_slice() {
@@ -173,6 +183,7 @@ impl From<&Scenario> for ScenarioFile {
             render: scenario.render,
             descent,
             tumbling,
+            attachment,
         }
     }
 }

@@ -88,6 +88,7 @@ fn imu(flight: &Flight, random: &mut ChaCha8Rng) -> (ImuNoise, Vec<ImuSample>) {
         rate_hz: RATE_HZ as f64,
         gyroscope_noise_density: 2.78e-5f64.to_radians(),
         accelerometer_noise_density: 5e-4,
+        bias: None,
     };
     let dt = STEP_NS as f64 * 1e-9;
     let scale = flight.imu_noise / dt.sqrt();

@@ -288,7 +288,8 @@ fn imu_samples() -> Vec<ImuSample> {
         .collect()
 }
 
-const NOISE: ImuNoise = ImuNoise { rate_hz: 100.0, gyroscope_noise_density: 1e-3, accelerometer_noise_density: 2e-2 };
+const NOISE: ImuNoise =
+    ImuNoise { rate_hz: 100.0, gyroscope_noise_density: 1e-3, accelerometer_noise_density: 2e-2, bias: None };
 
 /// Two increments in a row move a state, mean and covariance, as the one over both intervals does; the cut lies inside a
 /// sample.

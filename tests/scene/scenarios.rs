@@ -25,6 +25,7 @@ fn every_shipped_scenario_reads_resolves_and_builds() {
         match scenario.build(datasets()).unwrap() {
             Scene::Descent(scene) => assert!(scene.cameras[0].views.len() >= 60, "{}", path.display()),
             Scene::Tumbling(scene) => assert_eq!(scene.cameras[0].views.len(), 60, "{}", path.display()),
+            Scene::Attachment(scene) => assert_eq!(scene.cameras[2].views.len(), 61, "{}", path.display()),
         }
         count += 1;
     }
@@ -103,7 +104,7 @@ fn bad_overrides_name_the_key() {
         ("camera.widht_px=1", "widht_px", "width_px"),
         ("descent.imu.rate_hz=fast", "descent.imu", "fast"),
         ("seed=-1", "seed", "-1"),
-        ("tumbling.frames=3", "[tumbling]", "both"),
+        ("tumbling.frames=3", "[tumbling]", "more than one"),
     ];
     for (line, key, fault) in cases {
         let error = with(&format!("seed = 1\n{DESCENT}"), &[line]).unwrap_err();
@@ -191,7 +192,7 @@ fn one_mission_it_must_be() {
     let none = with("seed = 1", &[]).unwrap_err();
     assert!(none.contains("test.toml") && none.contains("neither"), "{none}");
     let both = with("[descent]\n[tumbling]", &[]).unwrap_err();
-    assert!(both.contains("test.toml") && both.contains("both"), "{both}");
+    assert!(both.contains("test.toml") && both.contains("more than one"), "{both}");
     let no_toml = with("seed = ", &[]).unwrap_err();
     assert!(no_toml.contains("test.toml") && no_toml.contains("line 1"), "{no_toml}");
     let missing = Scenario::read(Path::new("none.toml"), &[]).unwrap_err().to_string();

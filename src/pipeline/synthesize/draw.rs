@@ -92,6 +92,7 @@ pub(in crate::pipeline) fn world(scene: &Scene) -> World<'_> {
     match scene {
         Scene::Descent(scene) => World::Terrain(&scene.terrain),
         Scene::Tumbling(scene) => World::Body(&scene.body),
+        Scene::Attachment(scene) => World::Terrain(&scene.terrain),
     }
 }
 

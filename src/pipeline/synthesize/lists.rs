@@ -3,14 +3,15 @@
 use super::frame::FrameRecord;
 use super::run::FrameKey;
 use crate::dataset::truth::{
-    LandmarkObservation, camera_poses_file, write_asteroid, write_lander_states, write_landmarks, write_observations,
+    LandmarkObservation, camera_poses_file, write_asteroid, write_lander_states, write_landmarks, write_node_states,
+    write_observations,
 };
 use crate::dataset::{
-    StampedPose, write_atomically, write_camera_sensor, write_designated, write_imu, write_imu_sensor,
+    CameraId, StampedPose, write_atomically, write_camera_sensor, write_designated, write_imu, write_imu_sensor,
     write_initial_state, write_tum,
 };
 use crate::pipeline::PipelineError;
-use crate::scene::{DescentScene, Scene, SceneCamera};
+use crate::scene::{AttachmentScene, DescentScene, Scene, SceneCamera};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -21,6 +22,7 @@ pub(super) fn write_lists(root: &Path, scene: &Scene, frames: &[usize]) -> Resul
     match scene {
         Scene::Descent(scene) => write_descent(root, scene),
         Scene::Tumbling(scene) => Ok(write_asteroid(root, &scene.states, &scene.inertia)?),
+        Scene::Attachment(scene) => write_attachment(root, scene),
     }
 }
 
@@ -44,6 +46,17 @@ fn write_descent(root: &Path, scene: &DescentScene) -> Result<(), PipelineError>
     write_initial_state(root, &scene.initial)?;
     write_designated(root, &scene.designated)?;
     Ok(write_lander_states(root, &scene.lander_states)?)
+}
+
+fn write_attachment(root: &Path, scene: &AttachmentScene) -> Result<(), PipelineError> {
+    for (number, node) in (0..).zip(&scene.nodes) {
+        let folder = CameraId { node: Some(number), number: 0 }.spacecraft_folder(root);
+        write_imu(&folder, &node.imu)?;
+        write_imu_sensor(&folder, &scene.imu_noise)?;
+        write_initial_state(&folder, &node.initial)?;
+        write_node_states(root, Some(number), &node.states)?;
+    }
+    Ok(())
 }
 
 /// Writes where the landmarks fall, one list a spacecraft, sorted by time, camera and landmark.

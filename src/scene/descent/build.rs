@@ -74,7 +74,7 @@ impl DescentScene {
             SceneCamera { id: CameraId::single(number), sensor, detector: imager.detector, views }
         };
         let cameras: Vec<SceneCamera> = (0..).zip(imagers).map(camera).collect();
-        cameras.iter().try_for_each(|camera| check_above_ground(&camera.views, &terrain))?;
+        cameras.iter().try_for_each(|camera| check_above_ground("descent.terrain", &camera.views, &terrain))?;
         cameras.iter().try_for_each(|camera| check_above_model(&camera.views, &terrain))?;
         let designated = designated(config, &cameras[0], seed)?;
         let first_ns = times_ns[0];
@@ -118,7 +118,8 @@ fn designated(config: &DescentConfig, first_camera: &SceneCamera, seed: u64) -> 
     Ok(config.initial_error.designated(first.t_ns, &pixel_px, seed))
 }
 
-fn check_above_ground(views: &[View], terrain: &Terrain) -> Result<(), SceneError> {
+/// Refuses views from the ground or below; `key` is the terrain's in the scenario file.
+pub(in crate::scene) fn check_above_ground(key: &str, views: &[View], terrain: &Terrain) -> Result<(), SceneError> {
     let clearance_m = |pose: &Isometry3<f64>| {
         let p = pose.translation.vector;
         p.z - terrain.height_m(p.x, p.y)
@@ -128,10 +129,10 @@ fn check_above_ground(views: &[View], terrain: &Terrain) -> Result<(), SceneErro
         Some((t_ns, height_m)) => {
             let cure = format!(
                 "the camera would be {height_m:.1} m above the ground at t = {:.2} s: make the terrain flatter or end \
-                 the pictures higher (end_height_m)",
+                 the pictures higher",
                 t_ns as f64 * 1e-9
             );
-            Err(SceneError::out_of_range("descent.terrain", "too high", cure))
+            Err(SceneError::out_of_range(key, "too high", cure))
         }
     }
 }

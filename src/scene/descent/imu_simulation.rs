@@ -2,8 +2,7 @@
 
 use super::DescentMotion;
 use crate::dataset::{ImuNoise, ImuSample};
-use crate::geometry::so3;
-use crate::scene::{SceneError, limits};
+use crate::scene::{SceneError, ideal_samples, limits};
 use crate::stats::random_stream;
 use nalgebra::Vector3;
 use rand_distr::{Distribution, StandardNormal};
@@ -46,6 +45,7 @@ impl ImuConfig {
             rate_hz: f64::from(self.rate_hz),
             gyroscope_noise_density: self.gyroscope_noise_density,
             accelerometer_noise_density: self.accelerometer_noise_density,
+            bias: None,
         }
     }
 
@@ -79,23 +79,4 @@ impl ImuConfig {
         limits::positive("gyroscope_noise_density", self.gyroscope_noise_density)?;
         limits::positive("accelerometer_noise_density", self.accelerometer_noise_density)
     }
-}
-
-/// Samples without noise. The rate is the rotation vector of an interval over its length; the specific force is the
-/// mean over the interval in the turning lander axes (Gauss's three-point rule). A strap-down integration that applies
-/// the specific force in the attitude of the middle of the interval closes on the true motion; one that applies it in
-/// the attitude of its beginning does not: it makes an error of half an interval's turn.
-pub fn ideal_samples(motion: &DescentMotion, interval_ns: i64, end_ns: i64) -> Vec<ImuSample> {
-    let dt_s = interval_ns as f64 * 1e-9;
-    let sample = |t_ns: i64| {
-        let middle_s = t_ns as f64 * 1e-9 - 0.5 * dt_s;
-        let (before, after) = (middle_s - 0.5 * dt_s, middle_s + 0.5 * dt_s);
-        let turn = motion.site_from_lander(before).inverse() * motion.site_from_lander(after);
-        let node_s = 0.5 * dt_s * 0.6_f64.sqrt();
-        let outer = motion.specific_force_in_lander_m_s2(middle_s - node_s)
-            + motion.specific_force_in_lander_m_s2(middle_s + node_s);
-        let mean = (outer * 5.0 + motion.specific_force_in_lander_m_s2(middle_s) * 8.0) / 18.0;
-        ImuSample { t_ns, rate_in_lander_rad_s: so3::log(&turn) / dt_s, specific_force_in_lander_m_s2: mean }
-    };
-    (1..=end_ns / interval_ns).map(|index| sample(index * interval_ns)).collect()
 }

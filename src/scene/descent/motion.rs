@@ -2,6 +2,7 @@
 
 use super::PolynomialGuidance;
 use crate::dataset::truth::LanderState;
+use crate::scene::SensedMotion;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 /// A lander on its path. Its z axis points along the thrust and its yaw is 0: the attitude is a pitch θ about y after a
@@ -59,5 +60,15 @@ impl DescentMotion {
             gyro_bias_rad_s: Vector3::zeros(),
             accelerometer_bias_m_s2: Vector3::zeros(),
         }
+    }
+}
+
+impl SensedMotion for DescentMotion {
+    fn turn(&self, from_s: f64, to_s: f64) -> UnitQuaternion<f64> {
+        self.site_from_lander(from_s).inverse() * self.site_from_lander(to_s)
+    }
+
+    fn specific_force_m_s2(&self, t_s: f64) -> Vector3<f64> {
+        self.specific_force_in_lander_m_s2(t_s)
     }
 }
