@@ -17,6 +17,8 @@ mod render;
 mod report;
 mod scene;
 mod stats;
+#[cfg(all(feature = "render", feature = "vision"))]
+mod synthesis;
 mod terrain;
 mod tumbling;
 #[cfg(feature = "vision")]

@@ -1,5 +1,6 @@
 //! Tests of the room `scene`.
 
+mod attachment;
 mod bodies;
 mod body_formats;
 mod cameras;
@@ -10,6 +11,7 @@ mod elevation_scenarios;
 mod meshes;
 mod scenarios;
 mod sensors;
+mod several_cameras;
 mod tumbling;
 
 use opnav::scene::{DescentScene, Scenario, Scene, SceneError, TumblingScene};

@@ -5,6 +5,7 @@ mod bench;
 mod demo;
 mod doctor;
 mod evaluate;
+mod export;
 mod land;
 mod progress;
 mod render;

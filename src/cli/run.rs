@@ -1,7 +1,7 @@
 //! The command line as a whole: which subcommand, how errors end.
 
 use super::progress::Terminal;
-use super::{bench, demo, doctor, evaluate, land, render, report, track, tumble};
+use super::{bench, demo, doctor, evaluate, export, land, render, report, track, tumble};
 use clap::{Parser, Subcommand};
 use opnav::pipeline::PipelineError;
 use std::process::ExitCode;
@@ -28,6 +28,7 @@ enum Command {
     Evaluate(evaluate::Arguments),
     Report(report::Arguments),
     Bench(bench::Arguments),
+    Export(export::Arguments),
 }
 
 /// Parses the command line and runs it: exit 0 done, 1 could not do it, 2 wrong usage.
@@ -54,6 +55,7 @@ fn dispatch(command: Command, terminal: &Terminal) -> Result<ExitCode, PipelineE
         Command::Evaluate(arguments) => evaluate::run(&arguments, terminal)?,
         Command::Report(arguments) => report::run(&arguments, terminal)?,
         Command::Bench(arguments) => bench::run(&arguments, terminal)?,
+        Command::Export(arguments) => export::run(&arguments, terminal)?,
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -1,5 +1,7 @@
 //! Which camera of a data set, and where its files lie.
 
+use super::DatasetError;
+use std::collections::BTreeSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -57,4 +59,29 @@ impl FromStr for CameraId {
         };
         Ok(CameraId { node, number: number(camera, "cam").ok_or_else(expected)? })
     }
+}
+
+/// The cameras of a data set, spacecraft by spacecraft.
+///
+/// # Errors
+/// [`DatasetError::Missing`] if the folder holds no camera.
+pub fn find_cameras(root: &Path) -> Result<Vec<CameraId>, DatasetError> {
+    let mut cameras = BTreeSet::new();
+    for name in folder_names(root) {
+        cameras.extend(name.parse::<CameraId>());
+        if name.starts_with("node") {
+            let inside = folder_names(&root.join(&name));
+            cameras.extend(inside.iter().filter_map(|camera| format!("{name}/{camera}").parse::<CameraId>().ok()));
+        }
+    }
+    if cameras.is_empty() {
+        let cure = "give the folder of a data set that opnav render made".into();
+        return Err(DatasetError::Missing { path: root.join("cam0"), cure });
+    }
+    Ok(cameras.into_iter().collect())
+}
+
+fn folder_names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.filter(|e| e.path().is_dir()).map(|e| e.file_name().to_string_lossy().into_owned()).collect()
 }

@@ -6,6 +6,7 @@
 
 mod atomic;
 mod camera_id;
+mod colmap;
 mod designated;
 mod error;
 mod imu;
@@ -21,7 +22,8 @@ pub mod truth;
 mod tum;
 
 pub use atomic::{remove_partial_files, write_atomically, write_text};
-pub use camera_id::CameraId;
+pub use camera_id::{CameraId, find_cameras};
+pub use colmap::{ColmapImage, ColmapModel, ColmapPoint, read_colmap, write_colmap};
 pub use designated::{DesignatedPoint, read_designated, write_designated};
 pub use error::DatasetError;
 pub use imu::{ImuBiasNoise, ImuNoise, ImuSample, read_imu, write_imu, write_imu_sensor};

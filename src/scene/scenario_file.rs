@@ -188,15 +188,28 @@ impl From<&Scenario> for ScenarioFile {
     }
 }
 
-/// Puts `table.key=value` into a table; missing tables on the way are made.
+/// Puts `table.key=value` into a table, or `tables.0.key=value` into an entry of a list of tables; missing tables on the
+/// way are made.
 fn set(table: &mut Table, line: &str) -> Result<(), String> {
     let (path, text) = line.split_once('=').ok_or_else(|| format!("--set {line}: write it as table.key=value"))?;
     let mut keys: Vec<&str> = path.split('.').map(str::trim).collect();
     let last = keys.pop().filter(|key| !key.is_empty()).ok_or_else(|| format!("--set {line}: the key is empty"))?;
+    let no_table = |key: &str| format!("--set {line}: {key} is a value, not a table");
     let mut place = table;
-    for key in keys {
+    let mut keys = keys.into_iter();
+    while let Some(key) = keys.next() {
         let next = place.entry(key).or_insert_with(|| Value::Table(Table::new()));
-        place = next.as_table_mut().ok_or_else(|| format!("--set {line}: {key} is a value, not a table"))?;
+        place = match next {
+            Value::Table(table) => table,
+            Value::Array(entries) => {
+                let index = keys.next().unwrap_or(last);
+                let entry = index.parse::<usize>().ok().and_then(|index| entries.get_mut(index));
+                let entry =
+                    entry.ok_or_else(|| format!("--set {line}: {key} has no entry {index} (counted from 0)"))?;
+                entry.as_table_mut().ok_or_else(|| no_table(index))?
+            }
+            _ => return Err(no_table(key)),
+        };
     }
     place.insert(last.into(), value(text.trim()));
     Ok(())
