@@ -29,7 +29,7 @@ fn every_shipped_scenario_reads_resolves_and_builds() {
         }
         count += 1;
     }
-    assert_eq!(count, 9);
+    assert!(count >= 10, "{count} scenarios");
 }
 
 #[test]
