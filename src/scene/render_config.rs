@@ -13,7 +13,9 @@ pub struct RenderConfig {
     pub shadow_map_px: u32,
     /// Largest spacing of terrain vertices in px, seen face on, 0.25 to 16 (default 1.5).
     pub vertex_spacing_px: f64,
-    /// Whether the normal and the albedo of every pixel are read back too (default false).
+    /// Whether the normal and the albedo of every pixel are read back too (default false). No key of `[render]`: it follows
+    /// from `[truth]`.
+    #[serde(skip)]
     pub surface_truth: bool,
 }
 

@@ -1,8 +1,8 @@
 //! Scenario files: TOML with defaults, overrides, and errors that name file and key.
 
 use super::{
-    AttachmentConfig, CameraConfig, DescentConfig, DistortionConfig, ImagerConfig, Mission, RenderConfig, Scenario, SceneError,
-    SensorConfig, TruthConfig, TumblingConfig,
+    AttachmentConfig, CameraConfig, DescentConfig, DistortionConfig, ImagerConfig, Mission, RenderConfig, Scenario,
+    SceneError, SensorConfig, TruthConfig, TumblingConfig,
 };
 use serde::{Deserialize, Serialize};
 use std::path::Path;

@@ -6,6 +6,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TruthConfig {
+    /// Unit normals of the surface in reference axes, detail finer than the mesh included (default false).
+    pub normals: bool,
+    /// Albedo (default false).
+    pub albedo: bool,
     /// Optical flow from each picture to the same camera's next one (default false).
     pub flow: bool,
 }

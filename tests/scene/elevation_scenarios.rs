@@ -7,7 +7,7 @@ use std::path::Path;
 fn build(text: &str, folder: &Path) -> Result<DescentScene, String> {
     match scenario(text).map_err(|e| e.to_string())?.build(folder).map_err(|e| e.to_string())? {
         Scene::Descent(scene) => Ok(*scene),
-        Scene::Tumbling(_) => panic!("not a descent"),
+        _ => panic!("not a descent"),
     }
 }
 

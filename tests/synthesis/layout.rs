@@ -7,7 +7,7 @@ use opnav::dataset::truth::{
 };
 use opnav::dataset::{
     CameraId, CameraSource, ImageSequence, find_cameras, read_camera_sensor, read_depth_tiff, read_imu,
-    read_initial_state, read_manifest, read_mask_png, read_tum, sha256_hex,
+    read_initial_state, read_manifest, read_mask_png, read_normals_tiff, read_tum, sha256_hex,
 };
 use std::path::Path;
 use tempfile::TempDir;
@@ -134,4 +134,46 @@ fn flow_errors(root: &Path, camera: &CameraId) -> [f64; 2] {
         errors.sort_by(f64::total_cmp);
         errors[errors.len() / 2]
     })
+}
+
+/// Normals are unit vectors that agree with the depth's own slope, on average; albedo is that of the surface.
+#[test]
+fn normals_and_albedo_come_on_request() {
+    let text = "[truth]\nnormals = true\nalbedo = true\n[camera]\nwidth_px = 128\nheight_px = 128\n[tumbling]\nframes = 1\n\
+                [tumbling.surface]\nalbedo = 0.3\n[tumbling.shape.procedural]\nsubdivisions = 5\n";
+    let (_folder, root) = made(text);
+    let camera = CameraId::single(0);
+    let file = |kind: TruthRaster| root.join(kind.file(&camera, 0));
+    let normals = read_normals_tiff(&file(TruthRaster::Normals)).expect("normals");
+    let albedo = read_depth_tiff(&file(TruthRaster::Albedo)).expect("albedo");
+    let depth = read_depth_tiff(&file(TruthRaster::Depth)).expect("depth");
+    let lens = read_camera_sensor(&root.join("cam0/sensor.yaml")).expect("a camera").camera;
+    let pose = read_tum(&camera_poses_file(&root, &camera)).expect("poses")[0].reference_from_moving;
+    let point = |u: u32, v: u32| {
+        let ideal = lens.normalize(&nalgebra::Vector2::new(f64::from(u), f64::from(v))).expect("a ray");
+        pose * nalgebra::Point3::from(ideal.push(1.0) * f64::from(depth.get_pixel(u, v)[0]))
+    };
+    let (mut agreement, mut reversed, mut brightness, mut count) = (0.0, 0.0, 0.0, 0.0);
+    for (u, v, pixel) in normals.enumerate_pixels() {
+        let hit = depth.get_pixel(u, v)[0].is_finite();
+        assert_eq!((pixel[0].is_finite(), albedo.get_pixel(u, v)[0].is_finite()), (hit, hit), "pixel {u}, {v}");
+        if !hit || u < 1 || v < 1 || u > 126 || v > 126 {
+            continue;
+        }
+        let normal = Vector3::new(pixel[0], pixel[1], pixel[2]).map(f64::from);
+        assert!((normal.norm() - 1.0).abs() < 1e-3, "{normal}");
+        brightness += f64::from(albedo.get_pixel(u, v)[0]);
+        let slope = (point(u + 1, v) - point(u - 1, v)).cross(&(point(u, v - 1) - point(u, v + 1)));
+        let inward = pose.translation.vector - point(u, v).coords;
+        if slope.iter().all(|x| x.is_finite()) && slope.normalize().dot(&inward.normalize()).abs() > 0.4 {
+            agreement += normal.dot(&slope.normalize());
+            reversed += normal.dot(&inward.normalize());
+            count += 1.0;
+        }
+    }
+    assert!(count > 1000.0, "{count} pixels");
+    assert!(agreement / count > 0.9, "{}", agreement / count);
+    assert!(reversed / count > 0.4, "normals point inward: {}", reversed / count);
+    assert!((0.2..0.4).contains(&(brightness / count)), "{}", brightness / count);
+    assert!(!root.join("truth/flow").exists());
 }

@@ -3,7 +3,7 @@
 use super::frame::{FrameRecord, frame_files};
 use super::run::FrameKey;
 use crate::dataset::{Checksums, EarlierWork, read_depth_tiff, sha256_hex};
-use crate::scene::{DepthPicture, Scene, observe_landmarks};
+use crate::scene::{DepthPicture, Scene, TruthConfig, observe_landmarks};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -13,18 +13,23 @@ use std::path::Path;
 pub(super) fn check_earlier_frames(
     root: &Path,
     scene: &Scene,
-    earlier: &EarlierWork,
+    (earlier, wanted): (&EarlierWork, &TruthConfig),
 ) -> BTreeMap<FrameKey, FrameRecord> {
     let keys: Vec<FrameKey> = (0..scene.cameras().len())
         .flat_map(|camera| (0..scene.cameras()[camera].views.len()).map(move |frame| (camera, frame)))
         .collect();
-    keys.par_iter().filter_map(|key| Some((*key, checked_frame(root, scene, earlier, *key)?))).collect()
+    keys.par_iter().filter_map(|key| Some((*key, checked_frame(root, scene, (earlier, wanted), *key)?))).collect()
 }
 
-fn checked_frame(root: &Path, scene: &Scene, earlier: &EarlierWork, key: FrameKey) -> Option<FrameRecord> {
+fn checked_frame(
+    root: &Path,
+    scene: &Scene,
+    (earlier, wanted): (&EarlierWork, &TruthConfig),
+    key: FrameKey,
+) -> Option<FrameRecord> {
     let camera = &scene.cameras()[key.0];
     let view = &camera.views[key.1];
-    let files = frame_files(camera, view.t_ns);
+    let files = frame_files(camera, view.t_ns, wanted);
     let mut checksums = Checksums::new();
     for name in &files {
         let noted = earlier.finished.get(name)?;

@@ -38,10 +38,12 @@ pub(super) fn draw_frames(
     let (start, mut drawing) = (Instant::now(), Duration::ZERO);
     let mut blank = BlankFrames::default();
     let detectors = detectors(scene, scenario.seed);
+    let surface_truth = scenario.truth.normals || scenario.truth.albedo;
+    let config = RenderConfig { surface_truth, ..scenario.render };
     progress.begin("rendering", missing.len());
     let finish = |frame: DrawnFrame| {
         let key = frame.key;
-        finish_frame(frame, folder, scene.landmarks()).map(|record| (key, record))
+        finish_frame(frame, folder, (scene.landmarks(), &scenario.truth)).map(|record| (key, record))
     };
     let done = draw_and_finish(threads, finish, |pass_on| {
         let mut studio: Option<(Camera, Renderer)> = None;
@@ -49,7 +51,7 @@ pub(super) fn draw_frames(
             let camera = &scene.cameras()[key.0];
             let view = camera.views[key.1];
             let begun = Instant::now();
-            let renderer = renderer_for(&mut studio, (gpu, scene), &camera.sensor.camera, &scenario.render)?;
+            let renderer = renderer_for(&mut studio, (gpu, scene), &camera.sensor.camera, &config)?;
             let truth = renderer.expose(&camera.detector.shutter, view.t_ns, &|t_ns| scene.view_at(camera, t_ns))?;
             drawing += begun.elapsed();
             blank.look_at(&truth, *key);

@@ -1,13 +1,13 @@
 //! One picture after it was drawn: through the detector, packed, hashed, written, noted.
 
 use super::folder::DatasetFolder;
-use crate::dataset::truth::Landmark;
-use crate::dataset::truth::{LandmarkObservation, TruthRaster};
-use crate::dataset::{Checksums, DatasetError, encode_grey_png, encode_scalar_tiff};
+use crate::dataset::truth::{Landmark, LandmarkObservation, TruthRaster};
+use crate::dataset::{Checksums, DatasetError, encode_grey_png, encode_scalar_tiff, encode_vector_tiff};
 use crate::pipeline::PipelineError;
 use crate::render::{Detector, RenderedFrame};
-use crate::scene::{DepthPicture, SceneCamera, View, observe_landmarks};
+use crate::scene::{DepthPicture, SceneCamera, TruthConfig, View, observe_landmarks};
 use image::{DynamicImage, GrayImage};
+use std::path::Path;
 
 /// A picture that was drawn.
 pub(super) struct DrawnFrame<'a> {
@@ -27,36 +27,68 @@ pub(super) struct FrameRecord {
     pub observations: Vec<LandmarkObservation>,
 }
 
-/// Names of a picture's files: depth, mask, and last the picture itself.
-pub(super) fn frame_files(camera: &SceneCamera, t_ns: i64) -> [String; 3] {
-    [TruthRaster::Depth.file(&camera.id, t_ns), TruthRaster::Mask.file(&camera.id, t_ns), camera.id.picture(t_ns)]
+/// The truth that a picture comes with; depth is the first.
+pub(super) fn truth_kinds(wanted: &TruthConfig) -> Vec<TruthRaster> {
+    let on_request = [(wanted.normals, TruthRaster::Normals), (wanted.albedo, TruthRaster::Albedo)];
+    let on_request = on_request.into_iter().filter_map(|(wanted, kind)| wanted.then_some(kind));
+    [TruthRaster::Depth, TruthRaster::Mask].into_iter().chain(on_request).collect()
+}
+
+/// Names of a picture's files: depth, the other truth, and last the picture itself.
+pub(super) fn frame_files(camera: &SceneCamera, t_ns: i64, wanted: &TruthConfig) -> Vec<String> {
+    let truth = truth_kinds(wanted).into_iter().map(|kind| kind.file(&camera.id, t_ns));
+    truth.chain([camera.id.picture(t_ns)]).collect()
 }
 
 /// Exposes, packs and writes a picture with its truth.
 pub(super) fn finish_frame(
     frame: DrawnFrame,
     folder: &DatasetFolder,
-    landmarks: &[Landmark],
+    (landmarks, wanted): (&[Landmark], &TruthConfig),
 ) -> Result<FrameRecord, PipelineError> {
     let DrawnFrame { camera, detector, view, truth, .. } = frame;
     let depth = DepthPicture { width_px: truth.width_px, depth_m: &truth.depth_m };
     let observations = observe_landmarks(landmarks, camera, &view, &depth);
     let picture = detector.expose(&truth, view.t_ns).to_image().expect("a detector fills its picture");
-    let files = pack(camera, view.t_ns, truth, &picture)?;
+    let mut files = Vec::new();
+    for kind in truth_kinds(wanted) {
+        let name = kind.file(&camera.id, view.t_ns);
+        let bytes = pack_truth(kind, &truth, name.as_ref())?;
+        files.push((name, bytes));
+    }
+    let name = camera.id.picture(view.t_ns);
+    let bytes = encode_grey_png(name.as_ref(), &picture)?;
+    files.push((name, bytes));
     Ok(FrameRecord { checksums: folder.write(&files)?, observations })
 }
 
-fn pack(
-    camera: &SceneCamera,
-    t_ns: i64,
-    truth: RenderedFrame,
-    picture: &DynamicImage,
-) -> Result<Vec<(String, Vec<u8>)>, DatasetError> {
+/// The content of one file of truth.
+fn pack_truth(kind: TruthRaster, truth: &RenderedFrame, name: &Path) -> Result<Vec<u8>, DatasetError> {
     let size_px = (truth.width_px, truth.height_px);
-    let [depth, mask, name] = frame_files(camera, t_ns);
-    let mask_picture = GrayImage::from_raw(size_px.0, size_px.1, truth.mask).expect("a mask fills its picture");
-    let depth_bytes = encode_scalar_tiff(depth.as_ref(), size_px, &truth.depth_m)?;
-    let mask_bytes = encode_grey_png(mask.as_ref(), &DynamicImage::ImageLuma8(mask_picture))?;
-    let picture_bytes = encode_grey_png(name.as_ref(), picture)?;
-    Ok(vec![(depth, depth_bytes), (mask, mask_bytes), (name, picture_bytes)])
+    match kind {
+        TruthRaster::Depth => encode_scalar_tiff(name, size_px, &truth.depth_m),
+        TruthRaster::Mask => {
+            let mask = GrayImage::from_raw(size_px.0, size_px.1, truth.mask.clone());
+            encode_grey_png(name, &DynamicImage::ImageLuma8(mask.expect("a mask fills its picture")))
+        }
+        TruthRaster::Normals => {
+            let normals: Vec<[f32; 3]> = surface(truth).map(|[x, y, z, _]| [x, y, z]).collect();
+            encode_vector_tiff(name, size_px, &normals)
+        }
+        TruthRaster::Albedo => {
+            let albedo: Vec<f32> = surface(truth).map(|[_, _, _, albedo]| albedo).collect();
+            encode_scalar_tiff(name, size_px, &albedo)
+        }
+        TruthRaster::Flow => unreachable!("flow takes two pictures and is written after them"),
+    }
+}
+
+/// Normal and albedo of each pixel, NaN where nothing is hit.
+fn surface(truth: &RenderedFrame) -> impl Iterator<Item = [f32; 4]> {
+    let values = truth.surface.as_ref().expect("the renderer was asked for normals and albedo");
+    values.iter().zip(&truth.mask).map(
+        |(value, mask)| {
+            if mask & RenderedFrame::BODY == 0 { [f32::NAN; 4] } else { *value }
+        },
+    )
 }

@@ -60,7 +60,7 @@ pub fn synthesize(request: &SynthesizeRequest, progress: &dyn Progress) -> Resul
     let gpu = Gpu::new(request.adapter.as_deref())?;
     let earlier = DatasetFolder::prepare(request, &scenario, gpu.adapter_name())?;
     let root = request.out.as_path();
-    let mut finished = check_earlier_frames(root, &scene, &earlier);
+    let mut finished = check_earlier_frames(root, &scene, (&earlier, &scenario.truth));
     let is_there = |index: &usize| range.contains(index) || any_picture(root, &scene, *index);
     let frames: Vec<usize> = (0..available).filter(is_there).collect();
     let folder = DatasetFolder::begin(root, gpu.adapter_name(), &finished)?;

@@ -82,6 +82,7 @@ impl AttachmentScene {
                     camera: imager.camera,
                     spacecraft_from_camera: imager.spacecraft_from_camera(&node_from_nominal_camera()),
                     rate_hz: Some(1.0 / config.picture_interval_s),
+                    bits: imager.detector.stored_bits(),
                 };
                 let views = times_ns.iter().map(|t_ns| self.view(&node.motion, &sensor, *t_ns)).collect();
                 let id = CameraId { node: Some(number), number: camera };
