@@ -187,8 +187,8 @@ fn no_data_of_a_geotiff_file_is_unknown() {
     assert_eq!(model.summary().filled_posts, 3);
 }
 
-/// A TIFF file of 16 × 16 tiles, written out by hand.
-fn tiled_tiff() -> Vec<u8> {
+/// A TIFF file of 16 × 16 tiles, written out by hand; its header says that it has `columns` columns.
+fn tiled_tiff(columns: usize) -> Vec<u8> {
     let (across, down) = (COLUMNS.div_ceil(16), ROWS.div_ceil(16));
     let tiles = across * down;
     let data_at = 8 + 2 + 10 * 12 + 4;
@@ -201,7 +201,7 @@ fn tiled_tiff() -> Vec<u8> {
         bytes.extend((count as u32).to_le_bytes());
         bytes.extend((value as u32).to_le_bytes());
     };
-    entry(256, 4, 1, COLUMNS);
+    entry(256, 4, 1, columns);
     entry(257, 4, 1, ROWS);
     entry(258, 4, 1, 16);
     entry(259, 4, 1, 1);
@@ -225,7 +225,7 @@ fn tiled_tiff() -> Vec<u8> {
 #[test]
 fn tiles_are_read_as_strips_are() {
     let folder = folder();
-    std::fs::write(folder.path().join("tiled.tif"), tiled_tiff()).unwrap();
+    std::fs::write(folder.path().join("tiled.tif"), tiled_tiff(COLUMNS)).unwrap();
     let raster = read(&folder, metres_per_px("tiled.tif", 2.0)).unwrap();
     assert_eq!(raster.values, heights());
 }
@@ -368,6 +368,8 @@ fn faults_name_the_file_and_the_cure() {
     let colours = image::RgbImage::new(9, 9);
     colours.save(path("rgb.tif")).unwrap();
     says(fault(&folder, metres_per_px("rgb.tif", 1.0)), "one band");
+    std::fs::write(path("huge.tif"), tiled_tiff(2_000_000_000)).unwrap();
+    says(fault(&folder, metres_per_px("huge.tif", 1.0)), "cut out the part");
     std::fs::write(path("a.png"), b"\x89PNG\r\n\x1a\nnothing").unwrap();
     says(fault(&folder, metres_per_px("a.png", 1.0)), "cut short");
     says(fault(&folder, RasterFile::from_path("none.tif")), "could not read the raster");
@@ -384,6 +386,8 @@ fn faults_name_the_file_and_the_cure() {
     std::fs::write(path("a.lbl"), label("\"a.img\"", "SAMPLE_BITS = 8", "")).unwrap();
     std::fs::write(path("a.img"), vec![0; COLUMNS * ROWS]).unwrap();
     says(fault(&folder, RasterFile::from_path("a.lbl")), "SAMPLE_PROJECTION_OFFSET");
+    std::fs::write(path("a.lbl"), label("\"a.img\"", "SAMPLE_BITS = 8\r\nLINE_SUFFIX_BYTES = 1e300", OFFSETS)).unwrap();
+    says(read(&folder, RasterFile::from_path("a.lbl")).unwrap_err().to_string(), "cut short");
 }
 
 #[test]

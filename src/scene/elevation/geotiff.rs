@@ -1,7 +1,7 @@
 //! Rasters from TIFF files, with their place on the map if they are GeoTIFF files.
 
 use super::geokeys::GeoKeys;
-use super::raster::{FileGeoreference, FileRaster};
+use super::raster::{FileGeoreference, FileRaster, MOST_POSTS, too_many};
 use std::io::Cursor;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
@@ -19,9 +19,8 @@ pub(super) fn read(bytes: &[u8], wanted: bool) -> Result<FileRaster, String> {
     if color.num_samples() != 1 {
         return Err(format!("it has {} values a pixel: use a file with one band", color.num_samples()));
     }
-    let smallest = (columns as usize).saturating_mul(rows as usize) / 100_000;
-    if bytes.len() < smallest {
-        return Err(format!("it has {} bytes for {columns} × {rows} values: is it cut short?", bytes.len()));
+    if u64::from(columns) * u64::from(rows) > MOST_POSTS as u64 {
+        return Err(too_many([columns as usize, rows as usize]));
     }
     let mut values = as_f64(tiff.read_image().map_err(unreadable)?);
     if let Some(no_data) = no_data(&mut tiff)? {

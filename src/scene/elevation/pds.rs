@@ -98,6 +98,7 @@ fn layout(label: &Label, skip_bytes: usize) -> Result<RawLayout, String> {
     let layout =
         RawLayout { columns: count("LINE_SAMPLES")?, rows: count("LINES")?, sample: sample(label)?, skip_bytes };
     layout.validate().map_err(|e| e.to_string())?;
+    layout.check_size()?;
     Ok(layout)
 }
 

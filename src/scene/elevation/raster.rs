@@ -7,7 +7,7 @@ use std::path::Path;
 /// Radius of Mars in m: that of its IAU sphere.
 const MARS_RADIUS_M: f64 = 3_396_190.0;
 /// Most posts of a raster, so that it fits in memory.
-const MOST_POSTS: usize = 100_000_000;
+pub(super) const MOST_POSTS: usize = 100_000_000;
 
 /// A raster as its file holds it, before any setting of the scenario.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,9 +47,8 @@ impl Raster {
         let unusable = |problem: String| SceneError::Unusable { path: path.clone(), problem };
         let found = read_any(file, &path)?;
         let rows = found.values.len() / found.columns;
-        if found.columns < 2 || rows < 2 || found.values.len() > MOST_POSTS {
-            let (columns, most) = (found.columns, MOST_POSTS);
-            return Err(unusable(format!("it has {columns} × {rows} posts: 2 × 2 are needed, {most} allowed; cut it")));
+        if found.columns < 2 || rows < 2 {
+            return Err(unusable(format!("it has {} × {rows} posts: 2 × 2 are needed", found.columns)));
         }
         let georeference = georeference(file, &found).map_err(unusable)?;
         let known = |v: f64| v.is_finite() && !file.no_data.contains(&v);
@@ -75,6 +74,7 @@ fn read_any(file: &RasterFile, path: &Path) -> Result<FileRaster, SceneError> {
     })?;
     let unusable = |problem: String| SceneError::Unusable { path: path.into(), problem };
     if let Some(layout) = &file.layout {
+        layout.check_size().map_err(unusable)?;
         let values = layout.values(&bytes, [0, 0]).map_err(unusable)?;
         return Ok(FileRaster { columns: layout.columns, values, georeference: None });
     }
@@ -86,6 +86,11 @@ fn read_any(file: &RasterFile, path: &Path) -> Result<FileRaster, SceneError> {
         }
         _ => pds::read(path, bytes, lacks_geometry),
     }
+}
+
+/// What to say of a raster that does not fit in memory.
+pub(super) fn too_many([columns, rows]: [usize; 2]) -> String {
+    format!("it has {columns} × {rows} posts, and {MOST_POSTS} are allowed: cut out the part around the site")
 }
 
 fn georeference(file: &RasterFile, found: &FileRaster) -> Result<Georeference, String> {

@@ -1,5 +1,6 @@
 //! Samples as they stand in a file without a header of its own.
 
+use super::raster::{MOST_POSTS, too_many};
 use crate::scene::{SceneError, limits};
 use serde::{Deserialize, Serialize};
 
@@ -91,14 +92,20 @@ impl RawLayout {
         limits::count("rows", self.rows, 2, 1_000_000)
     }
 
+    /// That the samples fit in memory.
+    pub(super) fn check_size(&self) -> Result<(), String> {
+        let fits = self.columns.saturating_mul(self.rows) <= MOST_POSTS;
+        if fits { Ok(()) } else { Err(too_many([self.columns, self.rows])) }
+    }
+
     /// The values in a file's bytes; `margins` are bytes before and after each row that hold no samples.
     ///
     /// # Errors
     /// A phrase that says how many bytes are missing.
     pub(super) fn values(&self, bytes: &[u8], [before, after]: [usize; 2]) -> Result<Vec<f64>, String> {
         let size = self.sample.bytes();
-        let row_bytes = before + self.columns * size + after;
-        let needed = self.skip_bytes + row_bytes * self.rows - after;
+        let row_bytes = before.saturating_add(self.columns.saturating_mul(size)).saturating_add(after);
+        let needed = row_bytes.saturating_mul(self.rows).saturating_add(self.skip_bytes).saturating_sub(after);
         if bytes.len() < needed {
             return Err(format!(
                 "it has {} bytes, and {} columns and {} rows of {size} bytes a sample need {needed}: the file is cut \
