@@ -369,7 +369,7 @@ fn faults_name_the_file_and_the_cure() {
     colours.save(path("rgb.tif")).unwrap();
     says(fault(&folder, metres_per_px("rgb.tif", 1.0)), "one band");
     std::fs::write(path("huge.tif"), tiled_tiff(2_000_000_000)).unwrap();
-    says(fault(&folder, metres_per_px("huge.tif", 1.0)), "cut out the part");
+    says(fault(&folder, metres_per_px("huge.tif", 1.0)), "inconsistent sizes");
     std::fs::write(path("a.png"), b"\x89PNG\r\n\x1a\nnothing").unwrap();
     says(fault(&folder, metres_per_px("a.png", 1.0)), "cut short");
     says(fault(&folder, RasterFile::from_path("none.tif")), "could not read the raster");

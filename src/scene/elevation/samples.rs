@@ -105,7 +105,9 @@ impl RawLayout {
     pub(super) fn values(&self, bytes: &[u8], [before, after]: [usize; 2]) -> Result<Vec<f64>, String> {
         let size = self.sample.bytes();
         let row_bytes = before.saturating_add(self.columns.saturating_mul(size)).saturating_add(after);
-        let needed = row_bytes.saturating_mul(self.rows).saturating_add(self.skip_bytes).saturating_sub(after);
+        // The bytes after the last row may be missing.
+        let needed = row_bytes.saturating_mul(self.rows - 1).saturating_add(row_bytes - after.min(row_bytes));
+        let needed = needed.saturating_add(self.skip_bytes);
         if bytes.len() < needed {
             return Err(format!(
                 "it has {} bytes, and {} columns and {} rows of {size} bytes a sample need {needed}: the file is cut \
