@@ -41,12 +41,12 @@ const BODY: u32 = 1u;
 const LIT: u32 = 2u;
 const TERMINATOR: u32 = 4u;
 const TERMINATOR_COSINE: f32 = 0.17364818; // incidence of 80 to 100 degrees
-const BLOCKER_TAPS: u32 = 16u;
-const DISC_TAPS: u32 = 24u;
+const BLOCKER_TAPS: u32 = 10u;
+const DISC_TAPS: u32 = 16u;
 const FARTHEST: f32 = 3.0e38; // m
 const ONE_SLOPE: f32 = 0.01; // relative difference of depth within one surface at an edge
 const FINEST_SPACING_LOG2: f32 = -8.0;
-const SHADE_SPACINGS: f32 = 16.0; // as in src/render/terrain_tile.rs
+const SHADE_SPACINGS: f32 = 8.0; // as in src/render/terrain_tile.rs
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
@@ -226,10 +226,11 @@ struct Receiver {
     slope: vec2<f32>, // change of the depth a texel
 }
 
-// Taps on a disc, evenly (Vogel, "A better way to construct the sunflower head", 1979).
-fn on_disc(tap: u32, taps: u32) -> vec2<f32> {
-    let angle = f32(tap) * 2.3999632;
-    return sqrt((f32(tap) + 0.5) / f32(taps)) * vec2(cos(angle), sin(angle));
+// The direction of the next of many taps spread evenly over a disc: by the golden angle from the last one's, at the radius
+// sqrt((tap + 1/2) / taps) (Vogel, "A better way to construct the sunflower head", 1979).
+fn next_on_disc(last: vec2<f32>) -> vec2<f32> {
+    const TURN = vec2(-0.73736888, 0.67549029);
+    return vec2(last.x * TURN.x - last.y * TURN.y, last.x * TURN.y + last.y * TURN.x);
 }
 
 // Share of the solar disc seen: what blocks it is taken to lie at the mean depth of the blockers around, from where the
@@ -238,8 +239,11 @@ fn penumbra(receiver: Receiver, reach: vec2<f32>) -> f32 {
     let widest = max(reach * receiver.depth, vec2(1.0));
     var blockers = 0.0;
     var gap = 0.0;
+    var direction = vec2(1.0, 0.0);
     for (var tap = 0u; tap < BLOCKER_TAPS; tap++) {
-        let shift = floor(receiver.at + widest * on_disc(tap, BLOCKER_TAPS)) + 0.5 - receiver.at;
+        direction = next_on_disc(direction);
+        let far = widest * direction * sqrt((f32(tap) + 0.5) / f32(BLOCKER_TAPS));
+        let shift = floor(receiver.at + far) + 0.5 - receiver.at;
         let blocker = textureLoad(shadow_map, vec2<i32>(receiver.at + shift), 0);
         let behind = receiver.depth + dot(receiver.slope, shift) - blocker;
         if behind > 0.0 {
@@ -253,7 +257,8 @@ fn penumbra(receiver: Receiver, reach: vec2<f32>) -> f32 {
     let radius = max(reach * gap / blockers, vec2(0.75));
     var light = 0.0;
     for (var tap = 0u; tap < DISC_TAPS; tap++) {
-        light += lit_share(receiver, radius * on_disc(tap, DISC_TAPS));
+        direction = next_on_disc(direction);
+        light += lit_share(receiver, radius * direction * sqrt((f32(tap) + 0.5) / f32(DISC_TAPS)));
     }
     return light / f32(DISC_TAPS);
 }

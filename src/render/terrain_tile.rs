@@ -14,7 +14,7 @@ pub(super) const FINEST_LEVEL: i32 = -8;
 /// Four tiles of the coarsest level cover ±524 km: beyond the horizon from 12 km above Mars.
 pub(super) const COARSEST_LEVEL: i32 = 14;
 /// Relief and albedo of this many spacings and more are the vertices' to carry; finer ones are shaded per pixel.
-const SHADE_SPACINGS: f64 = 16.0;
+const SHADE_SPACINGS: f64 = 8.0;
 /// Relief of this many spacings and more displaces vertices.
 const HEIGHT_SPACINGS: f64 = 1.5;
 /// Classes of craters and rocks whose smallest diameter has this many spacings are drawn.
