@@ -1,12 +1,16 @@
 //! Tests of the room `render`. They need a graphics adapter; Mesa's lavapipe will do.
 
 mod adapters;
+mod bars;
 mod depth;
 mod detector;
 mod elevation;
+mod extremes;
 mod lens;
 mod light;
+mod picture_polygon;
 mod pixels;
+mod ray_caster;
 mod refusals;
 mod repetition;
 mod sensor_motion;

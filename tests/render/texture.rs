@@ -8,7 +8,7 @@ use opnav::render::{RenderConfig, RenderedFrame, Renderer, World};
 use opnav::scene::{BodySurface, SensorConfig, SmallBody, Terrain, TerrainConfig};
 
 /// A picture minus its own wide mean.
-fn high_passed(values: &[f64], width: usize) -> Vec<f64> {
+pub fn high_passed(values: &[f64], width: usize) -> Vec<f64> {
     let height = values.len() / width;
     let reach = 5;
     let mean = |u: usize, v: usize| {
