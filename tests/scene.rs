@@ -9,6 +9,7 @@ mod elevation_files;
 mod elevation_model;
 mod elevation_scenarios;
 mod meshes;
+mod photometry;
 mod scenarios;
 mod sensors;
 mod several_cameras;

@@ -42,9 +42,9 @@ pub(super) struct Octave {
 #[repr(C)]
 pub(super) struct Photometry {
     pub model: u32,
-    pub unused_1: f32,
-    pub unused_2: f32,
-    pub unused_3: f32,
+    pub asymmetry: f32,
+    pub opposition_amplitude: f32,
+    pub opposition_width: f32,
     pub lunar: [f32; 4],
     pub rough: [f32; 4],
 }
@@ -120,7 +120,7 @@ mod tests {
             assert_layout!(source, Geometry, [clip_from_relative, forward, camera_high, camera_low, level]);
         }
         assert_layout!(terrain, Tile, [base, spacing, slot]);
-        assert_layout!(shading, Photometry, [model, unused_1, unused_2, unused_3, lunar, rough]);
+        assert_layout!(shading, Photometry, [model, asymmetry, opposition_amplitude, opposition_width, lunar, rough]);
         assert_layout!(shading, Octave, [row_x, row_y, row_z, cell, fraction]);
         assert_layout!(
             shading,

@@ -19,7 +19,7 @@ mod mission_scene;
 mod noise;
 mod noise_octave;
 mod optical_flow;
-mod photometry;
+pub mod photometry;
 mod render_config;
 mod scenario;
 mod scenario_file;
@@ -64,7 +64,9 @@ pub use noise::{
 };
 pub use noise_octave::{NoiseOctave, OctaveStrength};
 pub use optical_flow::optical_flow;
-pub use photometry::{LunarWeight, PhotometricAngles, Photometry, oren_nayar_coefficients};
+pub use photometry::{
+    HapkeParameters, LunarWeight, PhotometricAngles, Photometry, chandrasekhar_h, oren_nayar_coefficients,
+};
 pub use render_config::RenderConfig;
 pub use scenario::Scenario;
 pub use sensed_motion::{SensedMotion, ideal_samples};

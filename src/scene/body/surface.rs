@@ -97,7 +97,7 @@ impl SurfaceConfig {
         limits::within("albedo_contrast", self.albedo_contrast, 0.0, 1.0)?;
         limits::within("detail_wavelength_edges", self.detail_wavelength_edges, 0.01, 1000.0)?;
         limits::within("detail_slope", self.detail_slope, 0.0, 2.0)?;
-        self.photometry.validate().map_err(|e| e.under("photometry"))
+        self.photometry.validate(self.albedo)
     }
 }
 

@@ -65,8 +65,8 @@ impl DescentConfig {
         self.imu.validate().map_err(|e| e.under("imu"))?;
         self.initial_error.validate().map_err(|e| e.under("initial_error"))?;
         self.sun.validate().map_err(|e| e.under("sun"))?;
-        self.terrain.photometry.validate().map_err(|e| e.under("photometry").under("terrain"))?;
         self.terrain.validate().map_err(|e| SceneError::from(e).under("terrain"))?;
+        self.terrain.photometry.validate(self.terrain.albedo).map_err(|e| e.under("terrain"))?;
         self.elevation.as_ref().map_or(Ok(()), |e| e.validate()).map_err(|e| e.under("elevation"))?;
         self.orthoimage.as_ref().map_or(Ok(()), |o| o.validate()).map_err(|e| e.under("orthoimage"))
     }

@@ -1,6 +1,6 @@
 //! The choice of a photometric model.
 
-use super::{LunarWeight, PhotometricAngles, lunar_lambert, oren_nayar};
+use super::{HapkeParameters, LunarWeight, PhotometricAngles, lunar_lambert, oren_nayar};
 use crate::scene::{SceneError, limits};
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +23,8 @@ pub enum Photometry {
         /// Standard deviation σ of the facets' slope angle in degrees, 0 to 60.
         slope_sigma_deg: f64,
     },
+    /// Layer of grains; the material's albedo is the single-scattering albedo w.
+    Hapke(HapkeParameters),
 }
 
 impl Default for Photometry {
@@ -48,20 +50,19 @@ impl Photometry {
             Photometry::OrenNayar { slope_sigma_deg } => {
                 albedo * oren_nayar::reflectance(slope_sigma_deg.to_radians(), angles)
             }
+            Photometry::Hapke(parameters) => parameters.reflectance(albedo, angles),
         }
     }
 
     /// Checks every parameter's range.
-    ///
-    /// # Errors
-    /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub(super) fn validate_parameters(&self) -> Result<(), SceneError> {
         match self {
             Photometry::Lambert | Photometry::LommelSeeliger => Ok(()),
             Photometry::LunarLambert { weight } => weight.validate().map_err(|e| e.under("lunar-lambert")),
             Photometry::OrenNayar { slope_sigma_deg } => {
                 limits::within("oren-nayar.slope_sigma_deg", *slope_sigma_deg, 0.0, 60.0)
             }
+            Photometry::Hapke(parameters) => parameters.validate().map_err(|e| e.under("hapke")),
         }
     }
 }
