@@ -33,3 +33,10 @@ pub(super) fn count(key: &str, value: usize, low: usize, high: usize) -> Result<
     }
     Err(SceneError::out_of_range(key, value, format!("it must be a whole number from {low} to {high}")))
 }
+
+/// The quaternion w, x, y, z has the norm 1.
+pub(super) fn unit_quaternion(key: &str, wxyz: &[f64; 4]) -> Result<(), SceneError> {
+    finite(key, wxyz)?;
+    let norm = wxyz.iter().map(|v| v * v).sum::<f64>().sqrt();
+    within(key, norm, 0.999, 1.001).map_err(|_| SceneError::out_of_range(key, norm, "its norm must be 1"))
+}

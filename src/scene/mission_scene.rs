@@ -1,9 +1,10 @@
 //! What happens in a scenario, and the scene that it describes.
 
 use super::{
-    AttachmentConfig, AttachmentScene, DescentConfig, DescentScene, SceneCamera, TumblingConfig, TumblingScene, View,
+    AttachmentConfig, AttachmentScene, DescentConfig, DescentScene, SceneCamera, Sky, TumblingConfig, TumblingScene, View,
 };
 use crate::dataset::truth::Landmark;
+use nalgebra::UnitQuaternion;
 
 /// What happens in a scenario.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,6 +44,15 @@ impl Scene {
             Scene::Descent(scene) => &scene.landmarks,
             Scene::Tumbling(scene) => &scene.landmarks,
             Scene::Attachment(scene) => &scene.landmarks,
+        }
+    }
+
+    /// The sky behind the surface and how one of the scene's cameras is turned to it (camera from inertial axes); `None` by
+    /// day.
+    pub fn sky(&self, camera: &SceneCamera) -> Option<(&Sky, UnitQuaternion<f64>)> {
+        match self {
+            Scene::Descent(_) => None,
+            Scene::Tumbling(scene) => Some((&scene.sky, camera.sensor.spacecraft_from_camera.rotation.inverse())),
         }
     }
 

@@ -14,6 +14,7 @@ mod descent;
 mod elevation;
 mod error;
 mod imager;
+mod light;
 mod limits;
 mod mission_scene;
 mod noise;
@@ -25,7 +26,7 @@ mod scenario;
 mod scenario_file;
 mod sensed_motion;
 mod sensor;
-mod sunlight;
+mod stars;
 mod terrain;
 mod terrain_base;
 mod terrain_config;
@@ -58,6 +59,7 @@ pub use elevation::{
 };
 pub use error::SceneError;
 pub use imager::{Imager, ImagerConfig, SceneCamera};
+pub use light::{EphemerisConfig, SunInIcrf, Sunlight, sun_angular_radius_rad};
 pub use mission_scene::{Mission, Scene};
 pub use noise::{
     NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseSample, noise_2d, noise_3d,
@@ -71,7 +73,7 @@ pub use render_config::RenderConfig;
 pub use scenario::Scenario;
 pub use sensed_motion::{SensedMotion, ideal_samples};
 pub use sensor::{Exposure, FixedPatternConfig, SensorConfig, ShutterConfig, VignettingConfig};
-pub use sunlight::sun_angular_radius_rad;
+pub use stars::{Sky, SkyConfig, Star};
 pub use terrain::{GroundDetail, GroundSample, Terrain};
 pub use terrain_config::{TerrainConfig, TerrainConfigError};
 pub use terrain_patch::TerrainPatch;

@@ -6,7 +6,7 @@ use super::run::FrameKey;
 use super::workers::draw_and_finish;
 use crate::geometry::Camera;
 use crate::pipeline::{PipelineError, Progress};
-use crate::render::{Detector, Gpu, RenderedFrame, Renderer, World};
+use crate::render::{Detector, Gpu, RenderedFrame, Renderer, World, add_stars};
 use crate::scene::{RenderConfig, Scenario, Scene};
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -52,7 +52,11 @@ pub(super) fn draw_frames(
             let view = camera.views[key.1];
             let begun = Instant::now();
             let renderer = renderer_for(&mut studio, (gpu, scene), &camera.sensor.camera, &config)?;
-            let truth = renderer.expose(&camera.detector.shutter, view.t_ns, &|t_ns| scene.view_at(camera, t_ns))?;
+            let mut truth =
+                renderer.expose(&camera.detector.shutter, view.t_ns, &|t_ns| scene.view_at(camera, t_ns))?;
+            if let Some((sky, camera_from_inertial)) = scene.sky(camera) {
+                add_stars(&mut truth, &camera.sensor.camera, sky, &camera_from_inertial);
+            }
             drawing += begun.elapsed();
             blank.look_at(&truth, *key);
             if !pass_on(DrawnFrame { key: *key, camera, detector: &detectors[key.0], view, truth }) {

@@ -5,7 +5,7 @@ use super::landmarks::landmarks_around_site;
 use super::{DescentConfig, DescentMotion, PolynomialGuidance};
 use crate::dataset::truth::{LanderState, Landmark};
 use crate::dataset::{CameraId, CameraSensor, DesignatedPoint, ImuNoise, ImuSample, InitialState};
-use crate::scene::{Imager, SceneCamera, SceneError, Terrain, View, sun_angular_radius_rad};
+use crate::scene::{Imager, SceneCamera, SceneError, Terrain, View};
 use nalgebra::{Isometry3, Point3, Unit, Vector3};
 use std::path::Path;
 
@@ -62,7 +62,9 @@ impl DescentScene {
             config.schedule.times_ns(&path, interval_ns).map_err(|e| e.under("schedule").under("descent"))?;
         let site_in_lander_m = motion.state(0).site_from_lander.inverse_transform_point(&Point3::origin()).coords;
         let lander_from_nominal = config.camera_mount.lander_from_camera(&site_in_lander_m);
-        let sun = (config.sun.sun_in_site(), sun_angular_radius_rad(config.sun.distance_au));
+        let sunlight =
+            config.sun.sunlight_in_site(base_folder).map_err(|e| e.under("sun").under("descent"))?;
+        let sun = (sunlight.direction, sunlight.angular_radius_rad());
         let camera = |(number, imager): (u32, &Imager)| {
             let sensor = CameraSensor {
                 camera: imager.camera,

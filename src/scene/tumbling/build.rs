@@ -6,7 +6,7 @@ use super::{RigidBody, Spin, TumblingConfig};
 
 use crate::dataset::truth::{AsteroidInertia, AsteroidState, Landmark};
 use crate::dataset::{CameraId, CameraSensor};
-use crate::scene::{Imager, SceneCamera, SceneError, SmallBody, View, sun_angular_radius_rad};
+use crate::scene::{Imager, SceneCamera, SceneError, Sky, SmallBody, View};
 use nalgebra::{Isometry3, Translation3, Unit, Vector2, Vector3};
 use std::path::Path;
 
@@ -27,6 +27,8 @@ pub struct TumblingScene {
     pub sun_in_spacecraft: Unit<Vector3<f64>>,
     /// Angular radius of the Sun's disc, rad.
     pub sun_angular_radius_rad: f64,
+    /// What is behind the body; inertial axes are the spacecraft's.
+    pub sky: Sky,
     /// How the body moves.
     pub rigid_body: RigidBody,
     /// Points on the surface, in asteroid axes.
@@ -54,12 +56,16 @@ impl TumblingScene {
             let cure = "the camera would be inside the body: make it smaller";
             return Err(SceneError::out_of_range("tumbling.fill_fraction", config.fill_fraction, cure));
         }
+        let inertial_from_icrf = config.icrf_rotation();
+        let sunlight = config.sun.sunlight_in_camera(&center_in_spacecraft_m, &inertial_from_icrf, base_folder);
+        let sunlight = sunlight.map_err(|e| e.under("sun").under("tumbling"))?;
         let states = states(config, &rigid_body);
         let mut scene = TumblingScene {
             cameras: Vec::new(),
             inertia: AsteroidInertia { inertia: rows(rigid_body.inertia()) },
-            sun_in_spacecraft: config.sun.sun_in_camera(&center_in_spacecraft_m),
-            sun_angular_radius_rad: sun_angular_radius_rad(config.sun.distance_au),
+            sun_in_spacecraft: sunlight.direction,
+            sun_angular_radius_rad: sunlight.angular_radius_rad(),
+            sky: config.sky.sky(&inertial_from_icrf, sunlight.distance_au, base_folder)?,
             center_in_spacecraft_m,
             rigid_body,
             states,

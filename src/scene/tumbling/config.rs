@@ -1,7 +1,7 @@
 //! Settings of a tumbling scene.
 
 use super::{InertiaSource, PhaseConfig};
-use crate::scene::{BodySource, SceneError, SurfaceConfig, limits};
+use crate::scene::{BodySource, SceneError, SkyConfig, SurfaceConfig, limits};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -17,6 +17,9 @@ pub struct TumblingConfig {
     pub rate_deg_s: [f64; 3],
     /// Attitude at t = 0 as a quaternion w, x, y, z that takes inertial to asteroid axes (default 1, 0, 0, 0).
     pub asteroid_from_inertial: [f64; 4],
+    /// Quaternion w, x, y, z that takes ICRF axes to inertial ones, that is, to the camera's; only the stars and the Sun's
+    /// ephemeris need it (default 1, 0, 0, 0: the camera looks at the celestial north pole, right ascension 0 to the right).
+    pub inertial_from_icrf: [f64; 4],
     /// Diameter of the body's bounding sphere over the smaller side of the picture, 0 to 1 (default 0.7).
     pub fill_fraction: f64,
     /// Place of the body's centre in the picture, right and down from the middle, in px (default 0, 0).
@@ -27,6 +30,8 @@ pub struct TumblingConfig {
     pub inertia: InertiaSource,
     /// Direction to the Sun.
     pub sun: PhaseConfig,
+    /// What is behind the body.
+    pub sky: SkyConfig,
     /// Surface.
     pub surface: SurfaceConfig,
     /// Shape (default: procedural).
@@ -40,11 +45,13 @@ impl Default for TumblingConfig {
             interval_s: 1.0,
             rate_deg_s: [5.0, 2.3, 3.5],
             asteroid_from_inertial: [1.0, 0.0, 0.0, 0.0],
+            inertial_from_icrf: [1.0, 0.0, 0.0, 0.0],
             fill_fraction: 0.7,
             center_offset_px: [0.0, 0.0],
             landmarks: 200,
             inertia: InertiaSource::default(),
             sun: PhaseConfig::default(),
+            sky: SkyConfig::default(),
             surface: SurfaceConfig::default(),
             shape: BodySource::default(),
         }
@@ -59,8 +66,12 @@ impl TumblingConfig {
 
     /// Attitude at t = 0.
     pub fn attitude(&self) -> UnitQuaternion<f64> {
-        let [w, x, y, z] = self.asteroid_from_inertial;
-        UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
+        rotation(&self.asteroid_from_inertial)
+    }
+
+    /// Rotation from ICRF axes to inertial ones.
+    pub fn icrf_rotation(&self) -> UnitQuaternion<f64> {
+        rotation(&self.inertial_from_icrf)
     }
 
     /// Checks every setting's range.
@@ -74,17 +85,19 @@ impl TumblingConfig {
         for rate_deg_s in self.rate_deg_s {
             limits::within("rate_deg_s", rate_deg_s, -360.0, 360.0)?;
         }
-        limits::finite("asteroid_from_inertial", &self.asteroid_from_inertial)?;
-        let norm =
-            Vector3::from_column_slice(&self.asteroid_from_inertial[1..]).norm().hypot(self.asteroid_from_inertial[0]);
-        limits::within("asteroid_from_inertial", norm, 0.999, 1.001)
-            .map_err(|_| SceneError::out_of_range("asteroid_from_inertial", norm, "its norm must be 1"))?;
+        limits::unit_quaternion("asteroid_from_inertial", &self.asteroid_from_inertial)?;
+        limits::unit_quaternion("inertial_from_icrf", &self.inertial_from_icrf)?;
         limits::within("fill_fraction", self.fill_fraction, 1e-3, 1.0)?;
         limits::finite("center_offset_px", &self.center_offset_px)?;
         limits::count("landmarks", self.landmarks, 0, 100_000)?;
         self.inertia.validate()?;
         self.sun.validate().map_err(|e| e.under("sun"))?;
+        self.sky.validate().map_err(|e| e.under("sky"))?;
         self.surface.validate().map_err(|e| e.under("surface"))?;
         self.shape.validate().map_err(|e| e.under("shape"))
     }
+}
+
+fn rotation([w, x, y, z]: &[f64; 4]) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_quaternion(Quaternion::new(*w, *x, *y, *z))
 }
