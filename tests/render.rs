@@ -16,6 +16,7 @@ mod repetition;
 mod sensor_motion;
 mod sensor_noise;
 mod sensor_optics;
+mod stars;
 mod texture;
 
 use nalgebra::{Isometry3, Matrix3, Unit, UnitQuaternion, Vector2, Vector3};

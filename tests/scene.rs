@@ -13,6 +13,8 @@ mod photometry;
 mod scenarios;
 mod sensors;
 mod several_cameras;
+mod stars;
+mod sunlight;
 mod tumbling;
 
 use opnav::scene::{DescentScene, Scenario, Scene, SceneError, TumblingScene};

@@ -10,12 +10,7 @@ const LEAST_COSINE: f64 = 1.0 - 1e-9;
 
 /// Adds the stars to the picture's radiance: each shares its light among the four pixels around its place, so that their
 /// centroid is that place. A star is hidden where the ray of the nearest pixel hits the surface.
-pub fn add_stars(
-    frame: &mut RenderedFrame,
-    camera: &Camera,
-    sky: &Sky,
-    camera_from_inertial: &UnitQuaternion<f64>,
-) {
+pub fn add_stars(frame: &mut RenderedFrame, camera: &Camera, sky: &Sky, camera_from_inertial: &UnitQuaternion<f64>) {
     for star in &sky.stars {
         let in_camera = camera_from_inertial * star.direction.as_ref();
         if let Some(pixel) = place(camera, &in_camera) {

@@ -62,8 +62,7 @@ impl DescentScene {
             config.schedule.times_ns(&path, interval_ns).map_err(|e| e.under("schedule").under("descent"))?;
         let site_in_lander_m = motion.state(0).site_from_lander.inverse_transform_point(&Point3::origin()).coords;
         let lander_from_nominal = config.camera_mount.lander_from_camera(&site_in_lander_m);
-        let sunlight =
-            config.sun.sunlight_in_site(base_folder).map_err(|e| e.under("sun").under("descent"))?;
+        let sunlight = config.sun.sunlight_in_site(base_folder).map_err(|e| e.under("sun").under("descent"))?;
         let sun = (sunlight.direction, sunlight.angular_radius_rad());
         let camera = |(number, imager): (u32, &Imager)| {
             let sensor = CameraSensor {

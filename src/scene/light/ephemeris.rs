@@ -56,11 +56,10 @@ impl EphemerisConfig {
             );
             SceneError::out_of_range("ephemeris.epoch", &self.epoch, cure)
         })?;
-        let (direction_in_icrf, distance_km) =
-            Unit::try_new_and_get(state.radius_km, 1.0).ok_or_else(|| {
-                let cure = "the body stands at the Sun's place: name another body";
-                SceneError::out_of_range("ephemeris.observer_id", self.observer_id, cure)
-            })?;
+        let (direction_in_icrf, distance_km) = Unit::try_new_and_get(state.radius_km, 1.0).ok_or_else(|| {
+            let cure = "the body stands at the Sun's place: name another body";
+            SceneError::out_of_range("ephemeris.observer_id", self.observer_id, cure)
+        })?;
         Ok(SunInIcrf { direction_in_icrf, distance_au: 1e3 * distance_km / ASTRONOMICAL_UNIT_M })
     }
 

@@ -53,7 +53,10 @@ impl PhaseConfig {
     ) -> Result<Sunlight, SceneError> {
         if let Some(ephemeris) = &self.ephemeris {
             let sun = ephemeris.sun(base_folder)?;
-            return Ok(Sunlight { direction: inertial_from_icrf * sun.direction_in_icrf, distance_au: sun.distance_au });
+            return Ok(Sunlight {
+                direction: inertial_from_icrf * sun.direction_in_icrf,
+                distance_au: sun.distance_au,
+            });
         }
         let given = self.direction_in_inertial.map(|vector| direction("direction_in_inertial", &vector)).transpose()?;
         let direction = given.unwrap_or_else(|| self.from_angles(center_in_camera_m));
