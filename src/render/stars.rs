@@ -13,10 +13,8 @@ const LEAST_COSINE: f64 = 1.0 - 1e-9;
 pub fn add_stars(frame: &mut RenderedFrame, camera: &Camera, sky: &Sky, camera_from_inertial: &UnitQuaternion<f64>) {
     for star in &sky.stars {
         let in_camera = camera_from_inertial * star.direction.as_ref();
-        if let Some(pixel) = place(camera, &in_camera) {
-            if !is_hidden(frame, &pixel) {
-                share(frame, &pixel, sky.light_if_px(star, camera));
-            }
+        if let Some(pixel) = place(camera, &in_camera).filter(|pixel| !is_hidden(frame, pixel)) {
+            share(frame, &pixel, sky.light_if_px(star, camera));
         }
     }
 }

@@ -1,7 +1,8 @@
 //! What happens in a scenario, and the scene that it describes.
 
 use super::{
-    AttachmentConfig, AttachmentScene, DescentConfig, DescentScene, SceneCamera, Sky, TumblingConfig, TumblingScene, View,
+    AttachmentConfig, AttachmentScene, DescentConfig, DescentScene, SceneCamera, Sky, TumblingConfig, TumblingScene,
+    View,
 };
 use crate::dataset::truth::Landmark;
 use nalgebra::UnitQuaternion;
@@ -47,11 +48,11 @@ impl Scene {
         }
     }
 
-    /// The sky behind the surface and how one of the scene's cameras is turned to it (camera from inertial axes); `None` by
-    /// day.
+    /// The sky behind the surface and how one of the scene's cameras is turned to it (camera from inertial axes); `None`
+    /// where cameras look down at the ground.
     pub fn sky(&self, camera: &SceneCamera) -> Option<(&Sky, UnitQuaternion<f64>)> {
         match self {
-            Scene::Descent(_) => None,
+            Scene::Descent(_) | Scene::Attachment(_) => None,
             Scene::Tumbling(scene) => Some((&scene.sky, camera.sensor.spacecraft_from_camera.rotation.inverse())),
         }
     }

@@ -89,9 +89,8 @@ impl Scenario {
             Mission::Descent(descent) => {
                 DescentScene::new(descent, &imagers, self.seed, base_folder).map(|s| Scene::Descent(Box::new(s)))
             }
-            Mission::Attachment(attachment) => {
-                AttachmentScene::new(attachment, &imagers, self.seed).map(|s| Scene::Attachment(Box::new(s)))
-            }
+            Mission::Attachment(attachment) => AttachmentScene::new(attachment, &imagers, self.seed, base_folder)
+                .map(|s| Scene::Attachment(Box::new(s))),
             Mission::Tumbling(tumbling) => {
                 TumblingScene::new(tumbling, &imagers, self.seed, base_folder).map(|s| Scene::Tumbling(Box::new(s)))
             }

@@ -5,8 +5,9 @@ use crate::dataset::truth::{LanderState, Landmark};
 use crate::dataset::{CameraId, CameraSensor, ImuNoise, ImuSample, InitialState};
 use crate::geometry::so3;
 use crate::scene::descent::{check_above_ground, landmarks_around_site};
-use crate::scene::{Imager, SceneCamera, SceneError, Terrain, View, sun_angular_radius_rad};
+use crate::scene::{Imager, SceneCamera, SceneError, Terrain, View};
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
+use std::path::Path;
 
 /// Linked spacecraft over the site of a small body: what they photograph, measure and believe.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,11 +44,17 @@ pub struct AttachmentNode {
 }
 
 impl AttachmentScene {
-    /// Scene of a configuration that [`AttachmentConfig::validate`] accepts.
+    /// Scene of a configuration that [`AttachmentConfig::validate`] accepts; relative paths start at `base_folder`.
     ///
     /// # Errors
-    /// Names the key at fault if a camera would be in the ground.
-    pub fn new(config: &AttachmentConfig, imagers: &[Imager], seed: u64) -> Result<AttachmentScene, SceneError> {
+    /// Names the kernel or the key at fault, among them a camera that would be in the ground.
+    pub fn new(
+        config: &AttachmentConfig,
+        imagers: &[Imager],
+        seed: u64,
+        base_folder: &Path,
+    ) -> Result<AttachmentScene, SceneError> {
+        let sunlight = config.sun.sunlight_in_site(base_folder).map_err(|e| e.under("sun").under("attachment"))?;
         let (center, body) = (ApolloGuidance::new(&config.approach), TurningBody::new(&config.body));
         let terrain = Terrain::new(&config.terrain, seed);
         let farthest_m = 0.3 * center.position_in_site_m(0.0).norm();
@@ -63,8 +70,8 @@ impl AttachmentScene {
             nodes: (0..).zip(&config.nodes_m).map(node).collect(),
             imu_noise: config.imu.noise(),
             body,
-            sun_in_site_at_start: config.sun.sun_in_site(),
-            sun_angular_radius_rad: sun_angular_radius_rad(config.sun.distance_au),
+            sun_in_site_at_start: sunlight.direction,
+            sun_angular_radius_rad: sunlight.angular_radius_rad(),
         };
         scene.cameras = scene.cameras(config, imagers);
         for camera in &scene.cameras {

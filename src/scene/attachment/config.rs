@@ -77,6 +77,7 @@ impl AttachmentConfig {
         self.initial_error.validate().map_err(|e| e.under("initial_error"))?;
         self.sun.validate().map_err(|e| e.under("sun"))?;
         limits::within("terrain.sky_light", self.terrain.sky_light, 0.0, 0.0)?;
-        self.terrain.validate().map_err(|e| SceneError::from(e).under("terrain"))
+        self.terrain.validate().map_err(|e| SceneError::from(e).under("terrain"))?;
+        self.terrain.photometry.validate(self.terrain.albedo).map_err(|e| e.under("terrain"))
     }
 }

@@ -55,10 +55,10 @@ impl SunConfig {
             return Ok(Sunlight { direction: site_from_icrf * sun.direction_in_icrf, distance_au: sun.distance_au });
         }
         let given = self.direction_in_site.map(|vector| direction("direction_in_site", &vector)).transpose()?;
-        Ok(Sunlight { direction: given.unwrap_or_else(|| self.from_angles()), distance_au: self.distance_au })
+        Ok(Sunlight { direction: given.unwrap_or_else(|| self.direction_from_angles()), distance_au: self.distance_au })
     }
 
-    fn from_angles(&self) -> Unit<Vector3<f64>> {
+    fn direction_from_angles(&self) -> Unit<Vector3<f64>> {
         let (elevation, azimuth) = (self.elevation_deg.to_radians(), self.azimuth_deg.to_radians());
         let across = elevation.cos();
         Unit::new_normalize(Vector3::new(across * azimuth.cos(), across * azimuth.sin(), elevation.sin()))

@@ -59,11 +59,11 @@ impl PhaseConfig {
             });
         }
         let given = self.direction_in_inertial.map(|vector| direction("direction_in_inertial", &vector)).transpose()?;
-        let direction = given.unwrap_or_else(|| self.from_angles(center_in_camera_m));
+        let direction = given.unwrap_or_else(|| self.direction_from_angles(center_in_camera_m));
         Ok(Sunlight { direction, distance_au: self.distance_au })
     }
 
-    fn from_angles(&self, center_in_camera_m: &Vector3<f64>) -> Unit<Vector3<f64>> {
+    fn direction_from_angles(&self, center_in_camera_m: &Vector3<f64>) -> Unit<Vector3<f64>> {
         let to_camera = -center_in_camera_m.normalize();
         let right = (Vector3::x() - to_camera * to_camera.x).normalize();
         let up = to_camera.cross(&right);
