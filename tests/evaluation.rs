@@ -1,5 +1,7 @@
 //! Tests of the room `evaluation`.
 
+mod picture;
+
 use image::{ImageBuffer, Luma};
 use nalgebra::{Isometry3, Matrix3, SMatrix, SVector, Translation3, UnitQuaternion, Vector2, Vector3};
 use opnav::dataset::truth::{AsteroidInertia, AsteroidState, LanderState, write_asteroid, write_lander_states};

@@ -146,14 +146,7 @@ fn inner(frame: &RenderedFrame, margin: u32, holds: impl Fn(usize) -> bool) -> V
 
 /// Lambertian ground without relief, under a black sky.
 fn flat() -> TerrainConfig {
-    TerrainConfig {
-        photometry: Photometry::Lambert,
-        sky_light: 0.0,
-        rms_slope: 0.0,
-        crater_density: 0.0,
-        rock_density: 0.0,
-        ..TerrainConfig::default()
-    }
+    TerrainConfig { photometry: Photometry::Lambert, sky_light: 0.0, ..TerrainConfig::level() }
 }
 
 fn interpolated(frame: &RenderedFrame, pixel: &Vector2<f64>) -> f64 {

@@ -1,5 +1,11 @@
 //! Tests of the terrain in the room `scene`.
 
+mod features;
+#[cfg(all(feature = "render", feature = "vision"))]
+mod realism;
+#[cfg(all(feature = "render", feature = "vision"))]
+mod texture;
+
 use nalgebra::{Unit, Vector2, Vector3};
 use opnav::scene::{
     GroundDetail, NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseOctave, Scatter,
@@ -70,7 +76,7 @@ fn slope_of_the_relief_is_the_one_configured() {
 
 /// Fractal relief alone.
 fn bare() -> TerrainConfig {
-    TerrainConfig { crater_density: 0.0, rock_density: 0.0, ..TerrainConfig::default() }
+    TerrainConfig::default().without_features()
 }
 
 #[test]

@@ -1,6 +1,13 @@
-//! Impact craters, from fresh to degraded: a bowl inside a rim, and ejecta of another albedo.
+//! Impact craters of all ages: sharp bowls with raised rims and ejecta when fresh, shallow dishes with a flat floor when
+//! old.
+//!
+//! Fresh simple craters: depth from rim to floor about 0.2 of the diameter, rim about 0.04 of it above the ground, ejecta
+//! that thin with the third power of the distance (Melosh, "Impact Cratering", 1989, chapters 5 and 6). Old ones are
+//! softened as by the creep of their slopes, and partly filled.
 
+use super::terrain_bins::Bounded;
 use super::terrain_scatter::{Feature, Scatter};
+use super::terrain_site::at_most;
 use nalgebra::Vector2;
 
 /// Height, gradient and relative albedo that features add at a place.
@@ -15,7 +22,7 @@ pub struct FeatureSample {
 }
 
 /// Craters of one octave of diameters.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct CraterClass {
     /// Where they are.
     pub scatter: Scatter,
@@ -23,72 +30,114 @@ pub struct CraterClass {
     pub depth_ratio: f64,
     /// No crater is deeper than this times its distance from the origin.
     pub site_slope: f64,
-    /// Relative change of the albedo by the freshest craters' ejecta.
+    /// Largest relative change of the albedo by fresh ejecta and by floors.
     pub albedo_contrast: f64,
 }
 
 /// Craters grow shallower for their diameter beyond this diameter in m.
-const SHALLOWING_M: f64 = 300.0;
+const SHALLOWING_M: f64 = 600.0;
+/// Depth of the oldest craters over that of fresh ones.
+const OLDEST_DEPTH: f64 = 0.1;
+/// Height of a fresh rim over the depth of the floor below the rim.
+const RIM_SHARE: f64 = 0.2;
+/// Half-width of an old crater's rim, in radii.
+const OLD_RIM_WIDTH: f64 = 0.6;
 
 impl CraterClass {
     /// Adds what one crater does to a place (m).
     pub fn add(&self, feature: &Feature, total: &mut FeatureSample, x_m: f64, y_m: f64) {
-        let from_center = Vector2::new(x_m, y_m) - feature.center_m;
-        let t_squared = 4.0 * from_center.norm_squared() / feature.diameter_m.powi(2);
-        if t_squared < Scatter::REACH_RADII.powi(2) {
-            self.crater(feature).add_to(total, &from_center, t_squared.sqrt());
-        }
+        self.crater(feature).add_to(total, x_m, y_m);
     }
 
-    fn crater(&self, feature: &Feature) -> Crater {
-        let [age, tint, ..] = feature.random;
-        let freshness = age * age;
-        let natural_m = feature.diameter_m * self.depth_ratio * (0.15 + 0.85 * freshness)
+    /// One crater, ready to be added to places.
+    pub(super) fn crater(&self, feature: &Feature) -> Crater {
+        let [age, tint, floor_tint, _] = feature.random;
+        let freshness = age * age * age;
+        let natural_m = feature.diameter_m * self.depth_ratio * (OLDEST_DEPTH + (1.0 - OLDEST_DEPTH) * freshness)
             / (1.0 + feature.diameter_m / SHALLOWING_M);
         Crater {
-            radius_m: 0.5 * feature.diameter_m,
+            center_m: feature.center_m,
+            per_radius_1_m: 2.0 / feature.diameter_m,
             depth_m: at_most(natural_m, self.site_slope * feature.center_m.norm()),
             freshness,
-            albedo: self.albedo_contrast * (2.0 * tint - 1.0) * (0.2 + 0.8 * freshness),
+            ejecta_albedo: self.albedo_contrast * (tint - 0.3) * freshness,
+            floor_albedo: self.albedo_contrast * (0.15 - 0.6 * floor_tint),
         }
     }
 }
 
-/// A smooth minimum of two positive numbers.
-pub(super) fn at_most(natural: f64, allowed: f64) -> f64 {
-    natural * allowed / (natural.powi(2) + allowed.powi(2)).sqrt().max(1e-12)
+/// One crater.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Crater {
+    center_m: Vector2<f64>,
+    per_radius_1_m: f64,
+    /// From rim to floor.
+    depth_m: f64,
+    /// 1 when new, 0 when old.
+    freshness: f64,
+    ejecta_albedo: f64,
+    floor_albedo: f64,
 }
 
-struct Crater {
-    radius_m: f64,
-    depth_m: f64,
-    freshness: f64,
-    albedo: f64,
+impl Bounded for Crater {
+    fn circle_m(&self) -> (Vector2<f64>, f64) {
+        (self.center_m, Scatter::REACH_RADII / self.per_radius_1_m)
+    }
 }
 
 impl Crater {
-    fn add_to(&self, total: &mut FeatureSample, from_center: &Vector2<f64>, t: f64) {
-        let (height_m, slope) = self.profile(t);
-        let taper = 1.0 - (t / Scatter::REACH_RADII).powi(2);
-        total.height_m += height_m;
+    /// Adds what the crater does to a place (m).
+    pub(super) fn add_to(&self, total: &mut FeatureSample, x_m: f64, y_m: f64) {
+        let from_center = Vector2::new(x_m - self.center_m.x, y_m - self.center_m.y);
+        let t_squared = from_center.norm_squared() * (self.per_radius_1_m * self.per_radius_1_m);
+        if t_squared >= Scatter::REACH_RADII * Scatter::REACH_RADII {
+            return;
+        }
+        let t = t_squared.sqrt();
+        let (fresh, fresh_slope) = fresh_profile(t);
+        let (old, old_slope) = old_profile(t);
+        let mix = |fresh: f64, old: f64| self.depth_m * (old + (fresh - old) * self.freshness);
+        total.height_m += mix(fresh, old);
         if t > 0.0 {
-            total.gradient += from_center * (slope / (self.radius_m.powi(2) * t));
+            let per_m = mix(fresh_slope, old_slope) * self.per_radius_1_m * self.per_radius_1_m / t;
+            total.gradient += from_center * per_m;
         }
-        total.albedo += self.albedo * taper * taper;
-    }
-
-    /// Height at `t` radii from the centre, and its derivative by `t`. Rims widen as craters degrade.
-    fn profile(&self, t: f64) -> (f64, f64) {
-        let rim_m = self.depth_m * 0.25 * (0.4 + 0.6 * self.freshness);
-        let width = 0.32 - 0.17 * self.freshness;
-        let offset = (t - 1.0) / width;
-        let rim = rim_m * (-offset * offset).exp();
-        let (mut height, mut slope) = (rim, -2.0 * offset / width * rim);
+        total.albedo += self.ejecta_albedo * ejecta_taper(t).0;
         if t < 1.0 {
-            let inside = 1.0 - t * t;
-            height -= self.depth_m * inside * inside;
-            slope += self.depth_m * 4.0 * t * inside;
+            let inside = 1.0 - t_squared;
+            total.albedo += self.floor_albedo * inside * inside;
         }
-        (height, slope)
     }
+}
+
+/// Height of a fresh crater of depth 1 at `t` radii, and its derivative by `t`: a parabola up to the rim, then ejecta.
+fn fresh_profile(t: f64) -> (f64, f64) {
+    if t < 1.0 {
+        return (RIM_SHARE - 1.0 + t * t, 2.0 * t);
+    }
+    let (taper, taper_slope) = ejecta_taper(t);
+    let cubed = RIM_SHARE / (t * t * t);
+    (cubed * taper, cubed * (taper_slope - 3.0 * taper / t))
+}
+
+/// Height of an old crater of depth 1 at `t` radii, and its derivative: a flat floor, a wide low rim.
+fn old_profile(t: f64) -> (f64, f64) {
+    let offset = (t - 1.0) / OLD_RIM_WIDTH;
+    let bump = (1.0 - offset * offset).max(0.0);
+    let mut height = 0.4 * RIM_SHARE * bump * bump;
+    let mut slope = -1.6 * RIM_SHARE * bump * offset / OLD_RIM_WIDTH;
+    if t < 1.0 {
+        let t_cubed = t * t * t;
+        let inside = 1.0 - t_cubed * t;
+        height -= (1.0 - RIM_SHARE) * inside * inside;
+        slope += (1.0 - RIM_SHARE) * 8.0 * t_cubed * inside;
+    }
+    (height, slope)
+}
+
+/// From 1 at the rim to 0 at the reach, smooth at both ends; 1 inside the crater.
+fn ejecta_taper(t: f64) -> (f64, f64) {
+    let s = ((t - 1.0) / (Scatter::REACH_RADII - 1.0)).clamp(0.0, 1.0);
+    let inside = 1.0 - s * s;
+    (inside * inside, -4.0 * s * inside / (Scatter::REACH_RADII - 1.0))
 }

@@ -10,6 +10,8 @@ use nalgebra::{Vector2, Vector3};
 pub const NOISE_2D_RMS: f64 = 0.176_127_132_922_507_5;
 /// R.m.s. length of the gradient of [`noise_2d`], per lattice unit.
 pub const NOISE_2D_SLOPE_RMS: f64 = 0.721_216_505_236_793_3;
+/// No gradient of [`noise_2d`] or its albedo field is longer than this, per lattice unit.
+pub(super) const NOISE_2D_STEEPEST: f64 = 7.0;
 /// R.m.s. value of [`noise_3d`].
 pub const NOISE_3D_RMS: f64 = 0.190_943_637_876_723_3;
 /// R.m.s. length of the gradient of [`noise_3d`] along a surface (two of its three axes), per lattice unit.
@@ -70,32 +72,71 @@ fn fade_slope(t: f64) -> f64 {
     30.0 * t * t * (t - 1.0) * (t - 1.0)
 }
 
-/// Cell of a lattice coordinate, wrapped to 32 bits as the shader does, and the fraction inside it.
-fn split(lattice: f64) -> (u32, f64) {
-    let cell = lattice.floor();
-    ((cell as i64) as u32, lattice - cell)
+/// Cell of a lattice coordinate and the fraction inside it.
+pub(super) fn split(lattice: f64) -> (i64, f64) {
+    // A cast truncates toward zero; `floor` would be a library call on some processors.
+    let toward_zero = lattice as i64;
+    let cell = toward_zero - i64::from(toward_zero as f64 > lattice);
+    (cell, lattice - cell as f64)
+}
+
+/// What a lattice point carries: gradients of the relief field (x, y) and of the albedo field (x, y).
+pub(super) type PointGradients = [f64; 4];
+
+/// Lattice points of a cell, x fastest.
+pub(super) type Corners = [PointGradients; 4];
+
+/// Gradients at a lattice point; its coordinates wrap to 32 bits, as the shader's do.
+pub(super) fn point_gradients(x: i64, y: i64, seed: u32) -> PointGradients {
+    let hash = pcg2d(x as u32 ^ seed, y as u32);
+    let ([gx, gy], [ax, ay]) = (halves(hash[0]), halves(hash[1]));
+    [gx, gy, ax, ay]
+}
+
+/// Gradients at the corners of a cell.
+pub(super) fn corners_of([x, y]: [i64; 2], seed: u32) -> Corners {
+    [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[dx, dy]| point_gradients(x + dx, y + dy, seed))
 }
 
 /// Gradient noise in two dimensions at a point in lattice units.
 pub fn noise_2d(at: &Vector2<f64>, seed: u32) -> NoiseSample {
-    let ((ix, fx), (iy, fy)) = (split(at.x), split(at.y));
+    let ((x, fx), (y, fy)) = (split(at.x), split(at.y));
+    interpolate(&corners_of([x, y], seed), [fx, fy])
+}
+
+/// Noise inside a cell, from its corners.
+pub(super) fn interpolate(corners: &Corners, [fx, fy]: [f64; 2]) -> NoiseSample {
     let (ux, uy, dx, dy) = (fade(fx), fade(fy), fade_slope(fx), fade_slope(fy));
-    let mut sample = NoiseSample { relief: 0.0, relief_gradient: Vector3::zeros(), albedo: 0.0 };
-    for corner in 0..4_u32 {
-        let (cx, cy) = (corner & 1, corner >> 1);
-        let hash = pcg2d(ix.wrapping_add(cx) ^ seed, iy.wrapping_add(cy));
-        let (px, py) = (fx - f64::from(cx), fy - f64::from(cy));
-        let (wx, wy) = (if cx == 1 { ux } else { 1.0 - ux }, if cy == 1 { uy } else { 1.0 - uy });
-        let (sx, sy) = (if cx == 1 { dx } else { -dx }, if cy == 1 { dy } else { -dy });
-        let [gx, gy] = halves(hash[0]);
-        let value = gx * px + gy * py;
-        sample.relief += value * wx * wy;
-        sample.relief_gradient.x += wy * (gx * wx + value * sx);
-        sample.relief_gradient.y += wx * (gy * wy + value * sy);
-        let [ax, ay] = halves(hash[1]);
-        sample.albedo += (ax * px + ay * py) * wx * wy;
+    let (x, y) = ([fx, fx - 1.0], [fy, fy - 1.0]);
+    let value = |k: usize, g: usize| corners[k][g] * x[k & 1] + corners[k][g + 1] * y[k >> 1];
+    let r = [value(0, 0), value(1, 0), value(2, 0), value(3, 0)];
+    let a = [value(0, 2), value(1, 2), value(2, 2), value(3, 2)];
+    let mix = |low: f64, high: f64, t: f64| low + (high - low) * t;
+    let across = |v: &[f64; 4]| mix(mix(v[0], v[1], ux), mix(v[2], v[3], ux), uy);
+    let gradient = |g: usize| across(&[corners[0][g], corners[1][g], corners[2][g], corners[3][g]]);
+    let by_fade_x = mix(r[1] - r[0], r[3] - r[2], uy);
+    let by_fade_y = mix(r[2] - r[0], r[3] - r[1], ux);
+    NoiseSample {
+        relief: across(&r),
+        relief_gradient: Vector3::new(gradient(0) + by_fade_x * dx, gradient(1) + by_fade_y * dy, 0.0),
+        albedo: across(&a),
     }
-    sample
+}
+
+/// Relief and albedo of [`interpolate`] alone, to the last bit.
+pub(super) fn interpolate_values(corners: &Corners, [fx, fy]: [f64; 2]) -> [f64; 2] {
+    let (ux, uy) = (fade(fx), fade(fy));
+    let (x, y) = ([fx, fx - 1.0], [fy, fy - 1.0]);
+    let mix = |low: f64, high: f64, t: f64| low + (high - low) * t;
+    [0, 2].map(|g| {
+        let v: [f64; 4] = std::array::from_fn(|k| corners[k][g] * x[k & 1] + corners[k][g + 1] * y[k >> 1]);
+        mix(mix(v[0], v[1], ux), mix(v[2], v[3], ux), uy)
+    })
+}
+
+/// Gradient of the albedo field inside a cell, per lattice unit.
+pub(super) fn albedo_gradient(corners: &Corners, at: [f64; 2]) -> Vector3<f64> {
+    interpolate(&corners.map(|[gx, gy, ax, ay]| [ax, ay, gx, gy]), at).relief_gradient
 }
 
 /// Gradient noise in three dimensions at a point in lattice units.
@@ -104,7 +145,7 @@ pub fn noise_3d(at: &Vector3<f64>, seed: u32) -> NoiseSample {
     let mut sample = NoiseSample { relief: 0.0, relief_gradient: Vector3::zeros(), albedo: 0.0 };
     for corner in 0..8_u32 {
         let upper = [corner & 1, (corner >> 1) & 1, corner >> 2];
-        let index = |axis: usize| cells[axis].0.wrapping_add(upper[axis]);
+        let index = |axis: usize| (cells[axis].0 as u32).wrapping_add(upper[axis]);
         let hash = pcg3d(index(0) ^ seed, index(1), index(2));
         let from_corner = Vector3::from_fn(|axis, _| cells[axis].1 - f64::from(upper[axis]));
         let side = |axis: usize, low: f64, high: f64| if upper[axis] == 1 { high } else { low };

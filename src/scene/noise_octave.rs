@@ -1,9 +1,13 @@
 //! Sums of noise octaves, each with its own rotation, offset and seed, so that no lattice shows.
 
 use super::NoiseSample;
-use super::noise::{NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, noise_2d, noise_3d};
+use super::noise::{
+    Corners, NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, albedo_gradient, corners_of,
+    interpolate, interpolate_values, noise_3d, split,
+};
+use super::noise_table::NoiseTable;
 use crate::stats::random_stream;
-use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use nalgebra::{Matrix3, Rotation3, Unit, Vector2, Vector3};
 use rand::RngExt;
 
 /// One octave of surface detail.
@@ -59,11 +63,14 @@ impl NoiseOctave {
     /// Octaves over the plane x, y, from the largest wavelength to the smallest.
     pub fn planar(strength: &OctaveStrength, seed: u64, purpose: &str) -> Vec<NoiseOctave> {
         build(strength, [NOISE_2D_RMS, NOISE_2D_SLOPE_RMS], |wavelength_m, index| {
-            let mut random = random_stream(seed, purpose, index);
-            let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), random.random_range(0.0..std::f64::consts::TAU));
-            let offset = Vector3::new(random.random_range(0.0..1e3), random.random_range(0.0..1e3), 0.0);
-            (turn.matrix() / wavelength_m, offset, random.random())
+            planar_placement(wavelength_m, seed, purpose, index)
         })
+    }
+
+    /// One field over the plane x, y with lattice cells of `wavelength_m`, for other uses than relief and albedo.
+    pub fn field(wavelength_m: f64, seed: u64, purpose: &str, index: u64) -> NoiseOctave {
+        let (lattice_from_reference, offset, seed) = planar_placement(wavelength_m, seed, purpose, index);
+        NoiseOctave { wavelength_m, lattice_from_reference, offset, seed, relief_m: 0.0, albedo: 0.0 }
     }
 
     /// Octaves in space, from the largest wavelength to the smallest.
@@ -80,15 +87,51 @@ impl NoiseOctave {
 
     /// The planar noise at a place (m); the gradient is per m.
     pub fn sample_planar(&self, x_m: f64, y_m: f64) -> NoiseSample {
-        let m = &self.lattice_from_reference;
-        let at = nalgebra::Vector2::new(
-            m.m11 * x_m + m.m12 * y_m + self.offset.x,
-            m.m21 * x_m + m.m22 * y_m + self.offset.y,
-        );
-        let mut sample = noise_2d(&at, self.seed);
-        let g = sample.relief_gradient;
-        sample.relief_gradient = Vector3::new(m.m11 * g.x + m.m21 * g.y, m.m12 * g.x + m.m22 * g.y, 0.0);
+        self.sample_planar_from(None, x_m, y_m)
+    }
+
+    /// As [`NoiseOctave::sample_planar`], exactly, with the lattice looked up in a table of the place's surroundings.
+    pub(super) fn sample_planar_from(&self, table: Option<&NoiseTable>, x_m: f64, y_m: f64) -> NoiseSample {
+        let (cell, fraction) = self.cell_at(x_m, y_m);
+        let mut sample = interpolate(&self.corners(table, cell), fraction);
+        sample.relief_gradient = self.per_m(&sample.relief_gradient);
         sample
+    }
+
+    /// Relief and albedo of [`NoiseOctave::sample_planar_from`] alone.
+    pub(super) fn values_planar_from(&self, table: Option<&NoiseTable>, x_m: f64, y_m: f64) -> [f64; 2] {
+        let (cell, fraction) = self.cell_at(x_m, y_m);
+        interpolate_values(&self.corners(table, cell), fraction)
+    }
+
+    /// Gradient of the planar albedo field at a place (m), per m.
+    pub(super) fn albedo_gradient_from(&self, table: Option<&NoiseTable>, x_m: f64, y_m: f64) -> Vector2<f64> {
+        let (cell, fraction) = self.cell_at(x_m, y_m);
+        self.per_m(&albedo_gradient(&self.corners(table, cell), fraction)).xy()
+    }
+
+    /// Lattice coordinates of a place (m) in the plane.
+    pub(super) fn planar_lattice(&self, x_m: f64, y_m: f64) -> [f64; 2] {
+        let m = &self.lattice_from_reference;
+        [m.m11 * x_m + m.m12 * y_m + self.offset.x, m.m21 * x_m + m.m22 * y_m + self.offset.y]
+    }
+
+    fn cell_at(&self, x_m: f64, y_m: f64) -> ([i64; 2], [f64; 2]) {
+        let [x, y] = self.planar_lattice(x_m, y_m);
+        let ((cell_x, fx), (cell_y, fy)) = (split(x), split(y));
+        ([cell_x, cell_y], [fx, fy])
+    }
+
+    fn corners(&self, table: Option<&NoiseTable>, cell: [i64; 2]) -> Corners {
+        match table {
+            Some(table) => table.corners(cell),
+            None => corners_of(cell, self.seed),
+        }
+    }
+
+    fn per_m(&self, g: &Vector3<f64>) -> Vector3<f64> {
+        let m = &self.lattice_from_reference;
+        Vector3::new(m.m11 * g.x + m.m21 * g.y, m.m12 * g.x + m.m22 * g.y, 0.0)
     }
 
     /// The solid noise at a point (m); the gradient is per m.
@@ -104,6 +147,13 @@ impl NoiseOctave {
         let t = ((wavelength_m / footprint_m - 1.0) / 1.5).clamp(0.0, 1.0);
         t * t * (3.0 - 2.0 * t)
     }
+}
+
+fn planar_placement(wavelength_m: f64, seed: u64, purpose: &str, index: u64) -> (Matrix3<f64>, Vector3<f64>, u32) {
+    let mut random = random_stream(seed, purpose, index);
+    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), random.random_range(0.0..std::f64::consts::TAU));
+    let offset = Vector3::new(random.random_range(0.0..1e3), random.random_range(0.0..1e3), 0.0);
+    (turn.matrix() / wavelength_m, offset, random.random())
 }
 
 fn build(

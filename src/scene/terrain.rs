@@ -1,19 +1,21 @@
 //! Procedural terrain: fractal relief, craters and albedo, known at every place from kilometres down to centimetres.
 
+use super::noise::NOISE_2D_STEEPEST;
+use super::noise_table::NoiseTable;
+use super::terrain_features::TerrainFeatures;
+use super::terrain_unit::DISPLACEMENT;
 use super::{
-    CraterClass, FeatureSample, GroundBase, NoiseOctave, OctaveStrength, Photometry, RockClass, Scatter, TerrainConfig,
+    CraterClass, FeatureSample, GroundBase, HummockClass, NoiseOctave, OctaveStrength, Photometry, RippleClass,
+    RockClass, TerrainConfig, UnitClass,
 };
-use crate::stats::random_stream;
 use nalgebra::Vector2;
-use rand::RngExt;
 use std::sync::Arc;
 
 /// Terrain in the site frame: z up, origin on the ground at the landing point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Terrain {
     pub(super) octaves: Vec<NoiseOctave>,
-    pub(super) craters: Vec<CraterClass>,
-    pub(super) rocks: Vec<RockClass>,
+    pub(super) features: TerrainFeatures,
     mean_albedo: f64,
     photometry: Photometry,
     sky_light: f64,
@@ -57,10 +59,10 @@ impl Terrain {
             albedo_contrast: config.albedo_contrast,
         };
         strength.slope_at_1_m = strength.slope_at_1_m_from_rms(config.rms_slope, config.slope_scale_m);
+        let octaves = NoiseOctave::planar(&strength, seed, "terrain-relief");
         let mut terrain = Terrain {
-            octaves: NoiseOctave::planar(&strength, seed, "terrain-relief"),
-            craters: crater_classes(config, seed),
-            rocks: rock_classes(config, seed),
+            features: TerrainFeatures::new(config, &octaves, seed),
+            octaves,
             mean_albedo: config.albedo,
             photometry: config.photometry,
             sky_light: config.sky_light,
@@ -96,53 +98,59 @@ impl Terrain {
     pub fn sample(&self, x_m: f64, y_m: f64, detail: &GroundDetail) -> GroundSample {
         let mut features = FeatureSample::default();
         for class in self.craters(detail) {
-            class.scatter.near(x_m, y_m).for_each(|f| class.add(&f, &mut features, x_m, y_m));
+            class.scatter.near(x_m, y_m).for_each(|f| class.crater(&f).add_to(&mut features, x_m, y_m));
         }
         for class in self.rocks(detail) {
-            class.scatter.near(x_m, y_m).for_each(|f| class.add(&f, &mut features, x_m, y_m));
+            class.scatter.near(x_m, y_m).for_each(|f| class.rock(&f).add_to(&mut features, x_m, y_m));
         }
-        self.relief_with(&features, x_m, y_m, detail)
+        let at = Vector2::new(x_m, y_m);
+        for class in self.hummocks(detail) {
+            class.scatter.near(x_m, y_m).for_each(|f| class.hummock(&f).add_to(&mut features, &at));
+        }
+        self.ripples(detail).for_each(|class| class.add_to(&mut features, &at, [None, None]));
+        let ground = OctaveSums::new(self, &[], &at, detail);
+        self.units(detail).for_each(|class| class.add_to(&mut features, &at, (None, detail), &ground));
+        self.with_features(&ground, &features)
     }
 
-    /// Fractal relief with the given features on it.
-    pub(super) fn relief_with(
-        &self,
-        features: &FeatureSample,
-        x_m: f64,
-        y_m: f64,
-        detail: &GroundDetail,
-    ) -> GroundSample {
-        let flat = GroundSample { height_m: 0.0, gradient: Vector2::zeros(), albedo_change: 0.0 };
-        let mut sample = self.base.as_ref().map_or(flat, |base| base.sample(x_m, y_m, detail));
-        for octave in self.octaves.iter().take_while(|o| o.wavelength_m >= detail.height_m) {
-            let weight = visibility(octave.wavelength_m, detail.footprint_m);
-            if weight <= 0.0 {
-                break;
-            }
-            let noise = octave.sample_planar(x_m, y_m);
-            sample.height_m += octave.relief_m * noise.relief;
-            if octave.wavelength_m >= detail.shade_m {
-                sample.gradient += noise.relief_gradient.xy() * (octave.relief_m * weight);
-                sample.albedo_change += octave.albedo * noise.albedo * weight;
-            }
+    /// The fractal relief with features on it.
+    pub(super) fn with_features(&self, ground: &OctaveSums, features: &FeatureSample) -> GroundSample {
+        GroundSample {
+            // In this order, so that the origin comes out at exactly 0.
+            height_m: ground.relief.height_m + features.height_m - self.height_at_origin_m,
+            gradient: ground.relief.gradient + features.gradient,
+            albedo_change: ground.relief.albedo_change + features.albedo,
         }
-        // In this order, so that the origin comes out at exactly 0.
-        sample.height_m = sample.height_m + features.height_m - self.height_at_origin_m;
-        sample.gradient += features.gradient;
-        sample.albedo_change += features.albedo;
-        sample
     }
 
     /// Classes of craters that a choice of details shows.
     pub(super) fn craters(&self, detail: &GroundDetail) -> impl Iterator<Item = &CraterClass> {
         let smallest_m = detail.feature_m;
-        self.craters.iter().take_while(move |c| c.scatter.smallest_m >= smallest_m)
+        self.features.craters.iter().take_while(move |c| c.scatter.smallest_m >= smallest_m)
     }
 
-    /// Classes of rocks that a choice of details shows.
+    /// Classes of rocks that a choice of details shows: rocks are high for their size, so smaller ones count too.
     pub(super) fn rocks(&self, detail: &GroundDetail) -> impl Iterator<Item = &RockClass> {
+        let smallest_m = 0.5 * detail.feature_m;
+        self.features.rocks.iter().take_while(move |r| r.scatter.smallest_m >= smallest_m)
+    }
+
+    /// Classes of hummocks that a choice of details shows.
+    pub(super) fn hummocks(&self, detail: &GroundDetail) -> impl Iterator<Item = &HummockClass> {
         let smallest_m = detail.feature_m;
-        self.rocks.iter().take_while(move |r| r.scatter.smallest_m >= smallest_m)
+        self.features.hummocks.iter().take_while(move |h| h.scatter.smallest_m >= smallest_m)
+    }
+
+    /// Classes of ripples that a choice of details shows: each wave needs two of the smallest features' diameters.
+    pub(super) fn ripples(&self, detail: &GroundDetail) -> impl Iterator<Item = &RippleClass> {
+        let shortest_m = 2.0 * detail.feature_m;
+        self.features.ripples.iter().take_while(move |r| r.wavelength_m >= shortest_m)
+    }
+
+    /// Classes of geological units that a choice of details shows: those of which patches are many such features wide.
+    pub(super) fn units(&self, detail: &GroundDetail) -> impl Iterator<Item = &UnitClass> {
+        let smallest_m = 4.0 * detail.feature_m;
+        self.features.units.iter().take_while(move |u| u.field.wavelength_m >= smallest_m)
     }
 
     /// Octaves of relief and albedo, the largest first.
@@ -170,34 +178,89 @@ fn visibility(wavelength_m: f64, footprint_m: f64) -> f64 {
     if footprint_m > 0.0 { NoiseOctave::visibility(wavelength_m, footprint_m) } else { 1.0 }
 }
 
-fn crater_classes(config: &TerrainConfig, seed: u64) -> Vec<CraterClass> {
-    let diameters_m = [config.smallest_crater_m, config.largest_crater_m];
-    Scatter::classes(diameters_m, config.crater_density, config.crater_exponent, seeds(seed, "terrain-craters"))
-        .into_iter()
-        .map(|scatter| CraterClass {
-            scatter,
-            depth_ratio: config.crater_depth_ratio,
-            site_slope: config.site_slope,
-            albedo_contrast: 3.0 * config.albedo_contrast,
-        })
-        .collect()
+/// No terrain has more octaves: halvings from the largest to the smallest wavelength that a configuration may ask for.
+const MOST_OCTAVES: usize = 32;
+
+/// What the octaves of a terrain add up to at one place.
+#[derive(Debug)]
+pub(super) struct OctaveSums<'a> {
+    relief: GroundSample,
+    octaves: &'a [NoiseOctave],
+    tables: &'a [Option<NoiseTable>],
+    at: Vector2<f64>,
+    count: usize,
+    displacement_m: [f64; MOST_OCTAVES],
 }
 
-fn rock_classes(config: &TerrainConfig, seed: u64) -> Vec<RockClass> {
-    let lengths_m = [config.smallest_rock_m, config.largest_rock_m];
-    Scatter::classes(lengths_m, config.rock_density, config.rock_exponent, seeds(seed, "terrain-rocks"))
-        .into_iter()
-        .map(|scatter| RockClass {
-            scatter,
-            site_slope: config.site_slope,
-            albedo_contrast: 3.0 * config.albedo_contrast,
-        })
-        .collect()
-}
+impl<'a> OctaveSums<'a> {
+    /// Sums at a place (m); `tables` are those of the first octaves.
+    pub(super) fn new(
+        terrain: &'a Terrain,
+        tables: &'a [Option<NoiseTable>],
+        at: &Vector2<f64>,
+        detail: &GroundDetail,
+    ) -> Self {
+        let flat = GroundSample { height_m: 0.0, gradient: Vector2::zeros(), albedo_change: 0.0 };
+        let mut sums = OctaveSums {
+            relief: terrain.base.as_ref().map_or(flat, |base| base.sample(at.x, at.y, detail)),
+            octaves: &terrain.octaves,
+            tables,
+            at: *at,
+            count: 0,
+            displacement_m: [0.0; MOST_OCTAVES],
+        };
+        for octave in terrain.octaves.iter().take(MOST_OCTAVES) {
+            let weight = visibility(octave.wavelength_m, detail.footprint_m);
+            if octave.wavelength_m < detail.height_m || weight <= 0.0 {
+                break;
+            }
+            sums.add(octave, weight, detail);
+        }
+        sums
+    }
 
-fn seeds(seed: u64, purpose: &'static str) -> impl FnMut(u64) -> [u32; 2] {
-    move |index| {
-        let mut random = random_stream(seed, purpose, index);
-        [random.random(), random.random()]
+    fn add(&mut self, octave: &NoiseOctave, weight: f64, detail: &GroundDetail) {
+        let table = self.table(self.count);
+        let [relief, albedo] = if octave.wavelength_m >= detail.shade_m {
+            let noise = octave.sample_planar_from(table, self.at.x, self.at.y);
+            self.relief.gradient += noise.relief_gradient.xy() * (octave.relief_m * weight);
+            self.relief.albedo_change += octave.albedo * noise.albedo * weight;
+            [noise.relief, noise.albedo]
+        } else {
+            octave.values_planar_from(table, self.at.x, self.at.y)
+        };
+        self.relief.height_m += octave.relief_m * relief;
+        self.displacement_m[self.count] = DISPLACEMENT * octave.wavelength_m * albedo;
+        self.count += 1;
+    }
+
+    /// How much the displacement of contacts by the octaves from `first` on can change within a distance, in m.
+    pub(super) fn displacement_change_m(&self, first: usize, within_m: f64) -> f64 {
+        let octaves = self.octaves.iter().take(self.count).skip(first);
+        octaves.map(|o| DISPLACEMENT * (NOISE_2D_STEEPEST * within_m).min(2.0 * o.wavelength_m)).sum()
+    }
+
+    fn table(&self, index: usize) -> Option<&'a NoiseTable> {
+        self.tables.get(index).and_then(Option::as_ref)
+    }
+
+    /// The place, m.
+    pub(super) fn at(&self) -> &Vector2<f64> {
+        &self.at
+    }
+
+    /// Displacement in m of contacts by the octaves from `first` on.
+    pub(super) fn displacement_m(&self, first: usize) -> f64 {
+        self.displacement_m[first.min(self.count)..self.count].iter().sum()
+    }
+
+    /// Gradient of [`OctaveSums::displacement_m`].
+    pub(super) fn displacement_gradient(&self, first: usize) -> Vector2<f64> {
+        let octaves = self.octaves.iter().enumerate().take(self.count).skip(first);
+        octaves
+            .map(|(index, o)| {
+                o.albedo_gradient_from(self.table(index), self.at.x, self.at.y) * (DISPLACEMENT * o.wavelength_m)
+            })
+            .sum()
     }
 }

@@ -8,13 +8,15 @@ use std::sync::Arc;
 const PROCEDURAL_MEAN_SLOPE: f64 = 0.4;
 /// No procedural ground departs more than this from the height of a place, in m.
 const PROCEDURAL_RELIEF_M: f64 = 400.0;
+/// No rock is higher than this in m: it may stand beside the place.
+const PROCEDURAL_STANDING_M: f64 = 2.0;
 /// No procedural ground is steeper than this, rise over run.
-const PROCEDURAL_STEEPEST: f64 = 3.0;
+const PROCEDURAL_STEEPEST: f64 = 5.0;
 /// No procedural ground is above this height in m.
 const PROCEDURAL_HIGHEST_M: f64 = 2_000.0;
 
 impl Terrain {
-    /// Terrain on a measured base. Octaves of waves longer than two posts, and craters and rocks larger than two posts,
+    /// Terrain on a measured base. Octaves of waves longer than two posts, and features larger than two posts,
     /// are left to the base: the octaves' lattice cells are half a wave.
     pub fn on_base(config: &TerrainConfig, base: GroundBase, seed: u64) -> Self {
         let mut terrain = Terrain::new(config, seed);
@@ -26,11 +28,7 @@ impl Terrain {
             octave.albedo *= f64::from(octave.wavelength_m <= albedo_m);
         }
         terrain.octaves.retain(|o| o.relief_m != 0.0 || o.albedo != 0.0);
-        terrain.craters.retain(|c| c.scatter.smallest_m <= relief_m);
-        terrain.rocks.retain(|r| r.scatter.smallest_m <= relief_m);
-        let shown = |smallest_m: f64| f64::from(smallest_m <= albedo_m);
-        terrain.craters.iter_mut().for_each(|c| c.albedo_contrast *= shown(c.scatter.smallest_m));
-        terrain.rocks.iter_mut().for_each(|r| r.albedo_contrast *= shown(r.scatter.smallest_m));
+        terrain.features.on_base([relief_m, albedo_m], &terrain.octaves);
         terrain.base = Some(Arc::new(base));
         terrain.height_at_origin_m = 0.0;
         terrain.height_at_origin_m = terrain.height_m(0.0, 0.0);
@@ -46,7 +44,8 @@ impl Terrain {
     /// the place, in m.
     pub fn relief_bound_m(&self, middle_m: &Vector2<f64>, half_edge_m: f64) -> f64 {
         let reach_m = std::f64::consts::SQRT_2 * half_edge_m;
-        let procedural_m = (PROCEDURAL_MEAN_SLOPE * reach_m).min(PROCEDURAL_RELIEF_M);
+        let standing_m = (PROCEDURAL_STEEPEST * reach_m).min(PROCEDURAL_STANDING_M);
+        let procedural_m = (PROCEDURAL_MEAN_SLOPE * reach_m).min(PROCEDURAL_RELIEF_M) + standing_m;
         let Some(elevation) = self.base.as_ref().and_then(|b| b.elevation.as_ref()) else { return procedural_m };
         procedural_m + elevation.relief_bound_m(middle_m, reach_m)
     }

@@ -50,15 +50,39 @@ pub struct TerrainConfig {
     pub crater_exponent: f64,
     /// Depth over diameter of a fresh crater (default 0.18).
     pub crater_depth_ratio: f64,
-    /// Probability of each rock that a cell of the rock grid can hold, for the smallest rocks, 0 (none) to 1 (default 0.35).
-    pub rock_density: f64,
+    /// Total abundance k of rocks: the share of the ground that rocks of all sizes cover by Golombek's law, 0 (none) to
+    /// 0.4 (default 0.07).
+    pub rock_abundance: f64,
     /// Smallest rock in m (default 0.06).
     pub smallest_rock_m: f64,
     /// Largest rock in m (default 4).
     pub largest_rock_m: f64,
-    /// Exponent b of the number of rocks larger than a length, N(>D) ~ D^-b (default 2.4).
-    pub rock_exponent: f64,
-    /// No crater is deeper and no rock higher than this times its distance from the landing point (default 0.05).
+    /// Mean probability of each hummock that a cell of the hummock grid can hold, 0 (none) to 1 (default 0.5); they crowd in
+    /// patches.
+    pub hummock_density: f64,
+    /// Smallest hummock in m (default 2).
+    pub smallest_hummock_m: f64,
+    /// Largest hummock in m (default 64).
+    pub largest_hummock_m: f64,
+    /// Height of the highest hummocks over their diameter (default 0.08).
+    pub hummock_height_ratio: f64,
+    /// Share of the ground under ripples of each size, 0 (none) to 1 (default 0.3).
+    pub ripple_cover: f64,
+    /// Largest distance between crests of ripples in m (default 28).
+    pub largest_ripple_m: f64,
+    /// Smallest distance between crests of ripples in m (default 0.5).
+    pub smallest_ripple_m: f64,
+    /// Height of ripples over the distance between crests (default 0.07).
+    pub ripple_height_ratio: f64,
+    /// Relative difference of the albedo between geological units (default 0.25).
+    pub unit_contrast: f64,
+    /// Wavelength in m of the largest pattern of geological units (default 3500).
+    pub largest_unit_m: f64,
+    /// Wavelength in m of the smallest pattern of geological units (default 25).
+    pub smallest_unit_m: f64,
+    /// Height of the scarp at the edge of a unit over the wavelength of its pattern (default 0.006).
+    pub scarp_ratio: f64,
+    /// No crater is deeper, no rock, hummock, ripple or scarp higher than this times its distance from the landing point (default 0.05).
     pub site_slope: f64,
 }
 
@@ -73,22 +97,51 @@ impl Default for TerrainConfig {
             albedo: 0.2,
             photometry: Photometry::default(),
             sky_light: 0.15,
-            albedo_contrast: 0.04,
-            crater_density: 0.5,
+            albedo_contrast: 0.015,
+            crater_density: 0.35,
             smallest_crater_m: 0.3,
             largest_crater_m: 800.0,
             crater_exponent: 2.0,
             crater_depth_ratio: 0.18,
-            rock_density: 0.35,
+            rock_abundance: 0.07,
             smallest_rock_m: 0.06,
             largest_rock_m: 4.0,
-            rock_exponent: 2.4,
+            hummock_density: 0.5,
+            smallest_hummock_m: 2.0,
+            largest_hummock_m: 64.0,
+            hummock_height_ratio: 0.08,
+            ripple_cover: 0.3,
+            largest_ripple_m: 28.0,
+            smallest_ripple_m: 0.5,
+            ripple_height_ratio: 0.07,
+            unit_contrast: 0.45,
+            largest_unit_m: 3500.0,
+            smallest_unit_m: 10.0,
+            scarp_ratio: 0.007,
             site_slope: 0.05,
         }
     }
 }
 
 impl TerrainConfig {
+    /// Level ground of one albedo but for the mottling of `albedo_contrast`: no relief and no features.
+    pub fn level() -> Self {
+        TerrainConfig { rms_slope: 0.0, ..TerrainConfig::default() }.without_features()
+    }
+
+    /// The same fractal relief without craters, rocks, hummocks, ripples and geological units.
+    pub fn without_features(self) -> Self {
+        TerrainConfig {
+            crater_density: 0.0,
+            rock_abundance: 0.0,
+            hummock_density: 0.0,
+            ripple_cover: 0.0,
+            unit_contrast: 0.0,
+            scarp_ratio: 0.0,
+            ..self
+        }
+    }
+
     /// Checks every parameter's range.
     ///
     /// # Errors
@@ -108,10 +161,21 @@ impl TerrainConfig {
             ("largest_crater_m", self.largest_crater_m, 0.01, 1e4, "0.01 to 10000 m"),
             ("crater_exponent", self.crater_exponent, 0.5, 5.0, "0.5 to 5"),
             ("crater_depth_ratio", self.crater_depth_ratio, 0.0, 0.4, "0 to 0.4"),
-            ("rock_density", self.rock_density, 0.0, 1.0, "0 to 1"),
+            ("rock_abundance", self.rock_abundance, 0.0, 0.4, "0 to 0.4"),
             ("smallest_rock_m", self.smallest_rock_m, 0.01, 100.0, "0.01 to 100 m"),
             ("largest_rock_m", self.largest_rock_m, 0.01, 100.0, "0.01 to 100 m"),
-            ("rock_exponent", self.rock_exponent, 0.5, 5.0, "0.5 to 5"),
+            ("hummock_density", self.hummock_density, 0.0, 1.0, "0 to 1"),
+            ("smallest_hummock_m", self.smallest_hummock_m, 0.1, 1e4, "0.1 to 10000 m"),
+            ("largest_hummock_m", self.largest_hummock_m, 0.1, 1e4, "0.1 to 10000 m"),
+            ("hummock_height_ratio", self.hummock_height_ratio, 0.0, 0.3, "0 to 0.3"),
+            ("ripple_cover", self.ripple_cover, 0.0, 1.0, "0 to 1"),
+            ("largest_ripple_m", self.largest_ripple_m, 0.05, 1e3, "0.05 to 1000 m"),
+            ("smallest_ripple_m", self.smallest_ripple_m, 0.05, 1e3, "0.05 to 1000 m"),
+            ("ripple_height_ratio", self.ripple_height_ratio, 0.0, 0.15, "0 to 0.15"),
+            ("unit_contrast", self.unit_contrast, 0.0, 1.0, "0 to 1"),
+            ("largest_unit_m", self.largest_unit_m, 1.0, 1e5, "1 to 100000 m"),
+            ("smallest_unit_m", self.smallest_unit_m, 1.0, 1e5, "1 to 100000 m"),
+            ("scarp_ratio", self.scarp_ratio, 0.0, 0.05, "0 to 0.05"),
             ("site_slope", self.site_slope, 0.0, 1.0, "0 to 1"),
         ];
         for (key, value, low, high, range) in ranges {

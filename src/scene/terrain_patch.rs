@@ -1,7 +1,13 @@
-//! A rectangle of terrain whose craters and rocks have been looked up once, for evaluating many places in it.
+//! A rectangle of terrain whose craters, rocks and lattices have been looked up once, for evaluating many places in it.
 
-use super::terrain_scatter::Feature;
-use super::{CraterClass, FeatureSample, GroundDetail, GroundSample, RockClass, Terrain};
+use super::crater::Crater;
+use super::noise_table::NoiseTable;
+use super::terrain::OctaveSums;
+use super::terrain_bins::Bins;
+use super::terrain_hummock::Hummock;
+use super::terrain_ripple::RippleTables;
+use super::terrain_rock::Rock;
+use super::{FeatureSample, GroundDetail, GroundSample, RippleClass, Terrain, UnitClass};
 use nalgebra::Vector2;
 
 /// A rectangle of terrain; gives exactly what [`Terrain::sample`] gives inside it, faster.
@@ -9,20 +15,51 @@ use nalgebra::Vector2;
 pub struct TerrainPatch<'a> {
     terrain: &'a Terrain,
     detail: GroundDetail,
-    craters: Vec<(&'a CraterClass, Feature)>,
-    rocks: Vec<(&'a RockClass, Feature)>,
+    craters: Bins<Crater>,
+    rocks: Bins<Rock>,
+    hummocks: Bins<Hummock>,
+    ripples: Vec<(&'a RippleClass, RippleTables)>,
+    units: Vec<(&'a UnitClass, UnitTable)>,
+    octaves: Vec<Option<NoiseTable>>,
+}
+
+/// What a rectangle knows of a class of units.
+#[derive(Debug, Clone)]
+enum UnitTable {
+    /// All of it lies on one side of the contacts.
+    Side(f64),
+    /// A contact may cross it.
+    Crossed(Option<NoiseTable>),
 }
 
 impl Terrain {
     /// The rectangle between two corners in m, with chosen details.
     pub fn patch(&self, low_m: &Vector2<f64>, high_m: &Vector2<f64>, detail: &GroundDetail) -> TerrainPatch<'_> {
-        let craters = self.craters(detail);
-        let rocks = self.rocks(detail);
+        let table = |octave: &_| NoiseTable::covering(octave, low_m, high_m);
+        let shown = self.octaves().iter().take_while(|o| o.wavelength_m >= detail.height_m);
+        let (middle, within_m) = (0.5 * (low_m + high_m), 0.5001 * (high_m - low_m).norm());
+        let ground = OctaveSums::new(self, &[], &middle, detail);
+        let unit_table = |unit: &UnitClass| match unit.side_around(within_m, &ground, detail) {
+            Some(side) => UnitTable::Side(side),
+            None => UnitTable::Crossed(table(&unit.field)),
+        };
+        let craters =
+            self.craters(detail).flat_map(|c| c.scatter.within(low_m, high_m).into_iter().map(|f| c.crater(&f)));
+        let rocks = self.rocks(detail).flat_map(|r| r.scatter.within(low_m, high_m).into_iter().map(|f| r.rock(&f)));
+        let hummocks = self.hummocks(detail).flat_map(|h| {
+            let found = h.scatter.within(low_m, high_m);
+            found.into_iter().map(|f| h.hummock(&f))
+        });
+        let ripples = self.ripples(detail).filter(|r| r.may_lie_around(&middle, within_m));
         TerrainPatch {
             terrain: self,
             detail: *detail,
-            craters: craters.flat_map(|c| c.scatter.within(low_m, high_m).into_iter().map(move |f| (c, f))).collect(),
-            rocks: rocks.flat_map(|r| r.scatter.within(low_m, high_m).into_iter().map(move |f| (r, f))).collect(),
+            craters: Bins::new(craters, low_m, high_m),
+            rocks: Bins::new(rocks, low_m, high_m),
+            hummocks: Bins::new(hummocks, low_m, high_m),
+            ripples: ripples.map(|r| (r, [table(&r.cover), table(&r.bend)])).collect(),
+            units: self.units(detail).map(|u| (u, unit_table(u))).collect(),
+            octaves: shown.map(table).collect(),
         }
     }
 }
@@ -30,9 +67,21 @@ impl Terrain {
 impl TerrainPatch<'_> {
     /// The ground at a place in m inside the rectangle.
     pub fn sample(&self, x_m: f64, y_m: f64) -> GroundSample {
+        let at = Vector2::new(x_m, y_m);
         let mut features = FeatureSample::default();
-        self.craters.iter().for_each(|(class, f)| class.add(f, &mut features, x_m, y_m));
-        self.rocks.iter().for_each(|(class, f)| class.add(f, &mut features, x_m, y_m));
-        self.terrain.relief_with(&features, x_m, y_m, &self.detail)
+        self.craters.near(&at).iter().for_each(|crater| crater.add_to(&mut features, x_m, y_m));
+        self.rocks.near(&at).iter().for_each(|rock| rock.add_to(&mut features, x_m, y_m));
+        self.hummocks.near(&at).iter().for_each(|hummock| hummock.add_to(&mut features, &at));
+        for (class, [cover, bend]) in &self.ripples {
+            class.add_to(&mut features, &at, [cover.as_ref(), bend.as_ref()]);
+        }
+        let ground = OctaveSums::new(self.terrain, &self.octaves, &at, &self.detail);
+        for (class, table) in &self.units {
+            match table {
+                UnitTable::Side(side) => class.add_side_to(&mut features, &at, *side),
+                UnitTable::Crossed(table) => class.add_to(&mut features, &at, (table.as_ref(), &self.detail), &ground),
+            }
+        }
+        self.terrain.with_features(&ground, &features)
     }
 }

@@ -1,22 +1,33 @@
 //! Scatters features over the plane by hashing, so that every place can be evaluated on its own.
 
+use super::NoiseOctave;
 use super::noise::pcg2d;
+use super::terrain_sizes::Sizes;
 use nalgebra::Vector2;
 
 /// Features that a cell of the grid can hold.
 const FEATURES_PER_CELL: u32 = 2;
 
 /// A grid of hashed cells, each holding up to two features of one octave of diameters.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Scatter {
     /// Smallest diameter in m; the largest is twice that.
     pub smallest_m: f64,
-    /// Probability of each feature that a cell can hold.
+    /// Mean probability of each feature that a cell can hold.
     pub probability: f64,
-    /// Exponent b of the number of features larger than a diameter, N(>D) ~ D^-b.
-    pub exponent: f64,
+    /// Diameters over the smallest one, as the octave's share of smaller features rises from 0 to 1.
+    pub(super) sizes: Sizes,
     /// Seeds of the hash.
     pub seed: [u32; 2],
+    /// Where features gather, if not evenly everywhere.
+    pub(super) patches: Option<Patches>,
+}
+
+/// Uneven density: the probability is multiplied by 1 + `strength` times a noise field, where that is positive.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Patches {
+    pub field: NoiseOctave,
+    pub strength: f64,
 }
 
 /// Where a feature is and what is random about it.
@@ -34,29 +45,48 @@ impl Scatter {
     /// Reach of a feature in radii: the largest one reaches half a cell, so that the four nearest cells suffice.
     pub const REACH_RADII: f64 = 2.0;
 
-    /// Grids of one octave of diameters each, the largest first. `probability` is that of the smallest class.
+    /// Grids of one octave of diameters each, the largest first, for features of which N(>D) ~ D^-`exponent`.
+    /// `probability` is that of the smallest class.
     pub fn classes(
         [smallest_m, largest_m]: [f64; 2],
         probability: f64,
         exponent: f64,
         mut seeds: impl FnMut(u64) -> [u32; 2],
     ) -> Vec<Scatter> {
-        std::iter::successors(Some(0.5 * largest_m), |d| Some(0.5 * d))
-            .take_while(|d| *d >= 0.999 * smallest_m)
+        octaves_m(smallest_m, largest_m)
             .zip(0..)
             .map(|(class_m, index)| Scatter {
                 smallest_m: class_m,
                 // Cells grow with the diameter, so that a class's share of the ground is constant for b = 2.
                 probability: (probability * (class_m / smallest_m).powf(2.0 - exponent)).min(1.0),
-                exponent,
+                sizes: Sizes::of_power_law(exponent),
                 seed: seeds(index),
+                patches: None,
+            })
+            .collect()
+    }
+
+    /// Grids of one octave of diameters each, the largest first, for features of which a square metre holds
+    /// `density_1_m2(D) dD/D` between the diameters D and D + dD.
+    pub fn classes_of_density(
+        [smallest_m, largest_m]: [f64; 2],
+        density_1_m2: impl Fn(f64) -> f64,
+        mut seeds: impl FnMut(u64) -> [u32; 2],
+    ) -> Vec<Scatter> {
+        octaves_m(smallest_m, largest_m)
+            .zip(0..)
+            .map(|(class_m, index)| {
+                let (sizes, number_1_m2) = Sizes::of_density(class_m, &density_1_m2);
+                let cell_m = Scatter::cell_of_m(class_m);
+                let probability = (number_1_m2 * cell_m * cell_m / f64::from(FEATURES_PER_CELL)).min(1.0);
+                Scatter { smallest_m: class_m, probability, sizes, seed: seeds(index), patches: None }
             })
             .collect()
     }
 
     /// Features that may reach a place (m), in a fixed order.
     pub fn near(&self, x_m: f64, y_m: f64) -> impl Iterator<Item = Feature> + '_ {
-        let cell_m = 2.0 * Scatter::REACH_RADII * self.smallest_m;
+        let cell_m = Scatter::cell_of_m(self.smallest_m);
         let (first_x, first_y) = ((x_m / cell_m - 0.5).floor() as i64, (y_m / cell_m - 0.5).floor() as i64);
         (0..4 * FEATURES_PER_CELL).filter_map(move |k| {
             let (cell, which) = (i64::from(k & 3), k >> 2);
@@ -66,7 +96,7 @@ impl Scatter {
 
     /// Features that may reach a rectangle (corners in m), in the order in which [`Scatter::near`] gives them.
     pub fn within(&self, low_m: &Vector2<f64>, high_m: &Vector2<f64>) -> Vec<Feature> {
-        let cell_m = 2.0 * Scatter::REACH_RADII * self.smallest_m;
+        let cell_m = Scatter::cell_of_m(self.smallest_m);
         let first = low_m.map(|c| (c / cell_m - 0.5).floor() as i64);
         let last = high_m.map(|c| (c / cell_m + 0.5).floor() as i64);
         let mut found = Vec::new();
@@ -82,22 +112,42 @@ impl Scatter {
         found
     }
 
+    /// Edge of a cell in m of the class from `smallest_m` on.
+    fn cell_of_m(smallest_m: f64) -> f64 {
+        2.0 * Scatter::REACH_RADII * smallest_m
+    }
+
     fn feature(&self, cell: [i64; 2], which: u32, cell_m: f64) -> Option<Feature> {
         let unit = |h: u32| f64::from(h) / 65536.0;
         let salt = which.wrapping_mul(0x9e37_79b9);
         let first = pcg2d(cell[0] as u32 ^ self.seed[0], cell[1] as u32 ^ self.seed[1] ^ salt);
-        if unit(first[0] & 0xffff) >= self.probability {
+        let most = self.patches.as_ref().map_or(1.0, |p| 1.0 + p.strength);
+        let chance = unit(first[0] & 0xffff);
+        if chance >= self.probability * most {
+            return None;
+        }
+        let place = Vector2::new(unit(first[1] & 0xffff), unit(first[1] >> 16));
+        let center_m = (Vector2::new(cell[0] as f64, cell[1] as f64) + place) * cell_m;
+        if self.patches.as_ref().is_some_and(|p| chance >= self.probability * p.density(&center_m)) {
             return None;
         }
         let second = pcg2d(first[0], first[1]);
         let third = pcg2d(second[0], second[1]);
-        let place = Vector2::new(unit(first[1] & 0xffff), unit(first[1] >> 16));
-        // Inverse of the power law inside one octave of diameters.
-        let share = 1.0 - unit(second[0] & 0xffff) * (1.0 - 0.5_f64.powf(self.exponent));
         Some(Feature {
-            center_m: (Vector2::new(cell[0] as f64, cell[1] as f64) + place) * cell_m,
-            diameter_m: self.smallest_m * share.powf(-1.0 / self.exponent),
+            center_m,
+            diameter_m: self.smallest_m * self.sizes.at(unit(second[0] & 0xffff)),
             random: [unit(first[0] >> 16), unit(second[1] & 0xffff), unit(second[1] >> 16), unit(third[0] >> 16)],
         })
     }
+}
+
+impl Patches {
+    fn density(&self, center_m: &Vector2<f64>) -> f64 {
+        (1.0 + self.strength * self.field.sample_planar(center_m.x, center_m.y).relief).max(0.0)
+    }
+}
+
+/// Smallest diameters of octaves that end at `largest_m`, the largest first.
+fn octaves_m(smallest_m: f64, largest_m: f64) -> impl Iterator<Item = f64> {
+    std::iter::successors(Some(0.5 * largest_m), |d| Some(0.5 * d)).take_while(move |d| *d >= 0.999 * smallest_m)
 }

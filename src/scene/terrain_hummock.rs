@@ -1,0 +1,70 @@
+//! Hummocks: low rounded knobs that crowd in patches of rough ground and leave the plains between them smooth.
+
+use super::FeatureSample;
+use super::terrain_bins::Bounded;
+use super::terrain_scatter::{Feature, Scatter};
+use super::terrain_site::at_most;
+use nalgebra::Vector2;
+
+/// Hummocks of one octave of diameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HummockClass {
+    /// Where they are.
+    pub scatter: Scatter,
+    /// Height of the highest over its diameter.
+    pub height_ratio: f64,
+    /// No hummock is higher than this times its distance from the origin.
+    pub site_slope: f64,
+    /// Largest relative change of the albedo.
+    pub albedo_contrast: f64,
+}
+
+impl HummockClass {
+    /// One hummock, ready to be added to places.
+    pub(super) fn hummock(&self, feature: &Feature) -> Hummock {
+        let [turn, slimness, tint, stature] = feature.random;
+        let (sin, cos) = (turn * std::f64::consts::TAU).sin_cos();
+        let natural_m = feature.diameter_m * self.height_ratio * (0.3 + 0.7 * stature);
+        Hummock {
+            center_m: feature.center_m,
+            per_radius_1_m: 2.0 / feature.diameter_m,
+            crest: Vector2::new(cos, sin) * (0.6 * slimness),
+            height_m: at_most(natural_m, self.site_slope * feature.center_m.norm()),
+            albedo: self.albedo_contrast * (tint - 0.5),
+        }
+    }
+}
+
+/// One hummock.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Hummock {
+    center_m: Vector2<f64>,
+    per_radius_1_m: f64,
+    /// Slope of the top over the height a radius.
+    crest: Vector2<f64>,
+    height_m: f64,
+    albedo: f64,
+}
+
+impl Bounded for Hummock {
+    fn circle_m(&self) -> (Vector2<f64>, f64) {
+        (self.center_m, 1.0 / self.per_radius_1_m)
+    }
+}
+
+impl Hummock {
+    /// Adds what the hummock does to a place (m): (1 - t²)² of its height at `t` radii, times a tilted plane.
+    pub(super) fn add_to(&self, total: &mut FeatureSample, at: &Vector2<f64>) {
+        let from_center = (at - self.center_m) * self.per_radius_1_m;
+        let inside = 1.0 - from_center.norm_squared();
+        if inside <= 0.0 {
+            return;
+        }
+        let dome = inside * inside;
+        let top = 1.0 + self.crest.dot(&from_center);
+        total.height_m += self.height_m * dome * top;
+        let by_radius = self.crest * dome - from_center * (4.0 * inside * top);
+        total.gradient += by_radius * (self.height_m * self.per_radius_1_m);
+        total.albedo += self.albedo * dome;
+    }
+}
