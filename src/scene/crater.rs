@@ -37,7 +37,7 @@ pub struct CraterClass {
 /// Craters grow shallower for their diameter beyond this diameter in m.
 const SHALLOWING_M: f64 = 600.0;
 /// Depth of the oldest craters over that of fresh ones.
-const OLDEST_DEPTH: f64 = 0.1;
+const OLDEST_DEPTH: f64 = 0.12;
 /// Height of a fresh rim over the depth of the floor below the rim.
 const RIM_SHARE: f64 = 0.2;
 /// Half-width of an old crater's rim, in radii.

@@ -80,8 +80,11 @@ pub(super) fn split(lattice: f64) -> (i64, f64) {
     (cell, lattice - cell as f64)
 }
 
-/// What a lattice point carries: gradients of the relief field (x, y) and of the albedo field (x, y).
-pub(super) type PointGradients = [f64; 4];
+/// One number each of the relief field and of the albedo field.
+type Pair = [f64; 2];
+
+/// What a lattice point carries: gradients of both fields by x, then by y.
+pub(super) type PointGradients = [Pair; 2];
 
 /// Lattice points of a cell, x fastest.
 pub(super) type Corners = [PointGradients; 4];
@@ -90,7 +93,7 @@ pub(super) type Corners = [PointGradients; 4];
 pub(super) fn point_gradients(x: i64, y: i64, seed: u32) -> PointGradients {
     let hash = pcg2d(x as u32 ^ seed, y as u32);
     let ([gx, gy], [ax, ay]) = (halves(hash[0]), halves(hash[1]));
-    [gx, gy, ax, ay]
+    [[gx, ax], [gy, ay]]
 }
 
 /// Gradients at the corners of a cell.
@@ -104,39 +107,53 @@ pub fn noise_2d(at: &Vector2<f64>, seed: u32) -> NoiseSample {
     interpolate(&corners_of([x, y], seed), [fx, fy])
 }
 
-/// Noise inside a cell, from its corners.
-pub(super) fn interpolate(corners: &Corners, [fx, fy]: [f64; 2]) -> NoiseSample {
-    let (ux, uy, dx, dy) = (fade(fx), fade(fy), fade_slope(fx), fade_slope(fy));
-    let (x, y) = ([fx, fx - 1.0], [fy, fy - 1.0]);
-    let value = |k: usize, g: usize| corners[k][g] * x[k & 1] + corners[k][g + 1] * y[k >> 1];
-    let r = [value(0, 0), value(1, 0), value(2, 0), value(3, 0)];
-    let a = [value(0, 2), value(1, 2), value(2, 2), value(3, 2)];
-    let mix = |low: f64, high: f64, t: f64| low + (high - low) * t;
-    let across = |v: &[f64; 4]| mix(mix(v[0], v[1], ux), mix(v[2], v[3], ux), uy);
-    let gradient = |g: usize| across(&[corners[0][g], corners[1][g], corners[2][g], corners[3][g]]);
-    let by_fade_x = mix(r[1] - r[0], r[3] - r[2], uy);
-    let by_fade_y = mix(r[2] - r[0], r[3] - r[1], ux);
-    NoiseSample {
-        relief: across(&r),
-        relief_gradient: Vector3::new(gradient(0) + by_fade_x * dx, gradient(1) + by_fade_y * dy, 0.0),
-        albedo: across(&a),
-    }
+/// `low` to `high` by `t`, of both fields.
+fn between(low: Pair, high: Pair, t: f64) -> Pair {
+    [low[0] + (high[0] - low[0]) * t, low[1] + (high[1] - low[1]) * t]
 }
 
-/// Relief and albedo of [`interpolate`] alone, to the last bit.
-pub(super) fn interpolate_values(corners: &Corners, [fx, fy]: [f64; 2]) -> [f64; 2] {
-    let (ux, uy) = (fade(fx), fade(fy));
+/// Both fields' planes through the corners, at a place in the cell.
+fn planes(corners: &Corners, [fx, fy]: [f64; 2]) -> [Pair; 4] {
     let (x, y) = ([fx, fx - 1.0], [fy, fy - 1.0]);
-    let mix = |low: f64, high: f64, t: f64| low + (high - low) * t;
-    [0, 2].map(|g| {
-        let v: [f64; 4] = std::array::from_fn(|k| corners[k][g] * x[k & 1] + corners[k][g + 1] * y[k >> 1]);
-        mix(mix(v[0], v[1], ux), mix(v[2], v[3], ux), uy)
-    })
+    let plane = |k: usize| {
+        let [by_x, by_y] = corners[k];
+        let (x, y) = (x[k & 1], y[k >> 1]);
+        [by_x[0] * x + by_y[0] * y, by_x[1] * x + by_y[1] * y]
+    };
+    [plane(0), plane(1), plane(2), plane(3)]
+}
+
+/// Relief and albedo inside a cell, from its corners.
+pub(super) fn interpolate_values(corners: &Corners, at: [f64; 2]) -> [f64; 2] {
+    let [ux, uy] = at.map(fade);
+    let v = planes(corners, at);
+    between(between(v[0], v[1], ux), between(v[2], v[3], ux), uy)
+}
+
+/// Noise inside a cell, from its corners; the values are those of [`interpolate_values`] to the last bit.
+pub(super) fn interpolate(corners: &Corners, at: [f64; 2]) -> NoiseSample {
+    let [relief, albedo] = interpolate_values(corners, at);
+    let [gx, gy] = gradients(corners, at).map(|by| by[0]);
+    NoiseSample { relief, relief_gradient: Vector3::new(gx, gy, 0.0), albedo }
 }
 
 /// Gradient of the albedo field inside a cell, per lattice unit.
-pub(super) fn albedo_gradient(corners: &Corners, at: [f64; 2]) -> Vector3<f64> {
-    interpolate(&corners.map(|[gx, gy, ax, ay]| [ax, ay, gx, gy]), at).relief_gradient
+pub(super) fn albedo_gradient(corners: &Corners, at: [f64; 2]) -> Vector2<f64> {
+    let [gx, gy] = gradients(corners, at).map(|by| by[1]);
+    Vector2::new(gx, gy)
+}
+
+/// Derivatives of both fields by x and by y.
+fn gradients(corners: &Corners, at: [f64; 2]) -> [Pair; 2] {
+    let ([ux, uy], [dx, dy]) = (at.map(fade), at.map(fade_slope));
+    let v = planes(corners, at);
+    let across =
+        |g: usize| between(between(corners[0][g], corners[1][g], ux), between(corners[2][g], corners[3][g], ux), uy);
+    let less = |a: Pair, b: Pair| [a[0] - b[0], a[1] - b[1]];
+    let plus = |a: Pair, b: Pair, by: f64| [a[0] + b[0] * by, a[1] + b[1] * by];
+    let by_fade_x = between(less(v[1], v[0]), less(v[3], v[2]), uy);
+    let by_fade_y = between(less(v[2], v[0]), less(v[3], v[1]), ux);
+    [plus(across(0), by_fade_x, dx), plus(across(1), by_fade_y, dy)]
 }
 
 /// Gradient noise in three dimensions at a point in lattice units.

@@ -107,7 +107,7 @@ impl NoiseOctave {
     /// Gradient of the planar albedo field at a place (m), per m.
     pub(super) fn albedo_gradient_from(&self, table: Option<&NoiseTable>, x_m: f64, y_m: f64) -> Vector2<f64> {
         let (cell, fraction) = self.cell_at(x_m, y_m);
-        self.per_m(&albedo_gradient(&self.corners(table, cell), fraction)).xy()
+        self.per_m(&albedo_gradient(&self.corners(table, cell), fraction).push(0.0)).xy()
     }
 
     /// Lattice coordinates of a place (m) in the plane.

@@ -42,7 +42,7 @@ pub struct GroundDetail {
     pub height_m: f64,
     /// Wavelength of relief and albedo that counts in gradient and albedo; at least `height_m`.
     pub shade_m: f64,
-    /// Smallest diameter of a class of craters or rocks.
+    /// Diameter that features need to be shown whole; round ones show from half of it, ripples and units from more.
     pub feature_m: f64,
     /// Footprint of a pixel: details near it fade as they do in a picture. 0 shows all.
     pub footprint_m: f64,
@@ -123,9 +123,9 @@ impl Terrain {
         }
     }
 
-    /// Classes of craters that a choice of details shows.
+    /// Classes of craters that a choice of details shows: down to half the smallest diameter, for their rims' sake.
     pub(super) fn craters(&self, detail: &GroundDetail) -> impl Iterator<Item = &CraterClass> {
-        let smallest_m = detail.feature_m;
+        let smallest_m = 0.5 * detail.feature_m;
         self.features.craters.iter().take_while(move |c| c.scatter.smallest_m >= smallest_m)
     }
 
@@ -137,7 +137,7 @@ impl Terrain {
 
     /// Classes of hummocks that a choice of details shows.
     pub(super) fn hummocks(&self, detail: &GroundDetail) -> impl Iterator<Item = &HummockClass> {
-        let smallest_m = detail.feature_m;
+        let smallest_m = 0.5 * detail.feature_m;
         self.features.hummocks.iter().take_while(move |h| h.scatter.smallest_m >= smallest_m)
     }
 

@@ -26,7 +26,7 @@ pub struct TerrainConfig {
     pub smallest_wavelength_m: f64,
     /// Hurst exponent of the relief, 0 to 1 (default 0.8).
     pub hurst: f64,
-    /// R.m.s. slope of the relief of all wavelengths down to `slope_scale_m`, rise over run (default 0.09).
+    /// R.m.s. slope of the relief of all wavelengths down to `slope_scale_m`, rise over run (default 0.085).
     pub rms_slope: f64,
     /// Wavelength in m that `rms_slope` is stated at (default 1).
     pub slope_scale_m: f64,
@@ -36,11 +36,11 @@ pub struct TerrainConfig {
     pub photometry: Photometry,
     /// Radiance of the sky over that of a sunlit white surface (default 0.15, a hazy Martian sky).
     pub sky_light: f64,
-    /// Relative r.m.s. variation of the albedo, per octave (default 0.04); less at wavelengths of
+    /// Relative r.m.s. variation of the albedo, per octave (default 0.025); less at wavelengths of
     /// kilometres.
     pub albedo_contrast: f64,
     /// Probability of each crater that a cell of the crater grid can hold, for the smallest craters, 0 (none) to 1 (default
-    /// 0.5).
+    /// 0.45).
     pub crater_density: f64,
     /// Smallest crater diameter in m (default 0.3).
     pub smallest_crater_m: f64,
@@ -62,9 +62,9 @@ pub struct TerrainConfig {
     pub hummock_density: f64,
     /// Smallest hummock in m (default 2).
     pub smallest_hummock_m: f64,
-    /// Largest hummock in m (default 64).
+    /// Largest hummock in m (default 256).
     pub largest_hummock_m: f64,
-    /// Height of the highest hummocks over their diameter (default 0.08).
+    /// Height of the highest hummocks over their diameter (default 0.1).
     pub hummock_height_ratio: f64,
     /// Share of the ground under ripples of each size, 0 (none) to 1 (default 0.3).
     pub ripple_cover: f64,
@@ -74,13 +74,13 @@ pub struct TerrainConfig {
     pub smallest_ripple_m: f64,
     /// Height of ripples over the distance between crests (default 0.07).
     pub ripple_height_ratio: f64,
-    /// Relative difference of the albedo between geological units (default 0.25).
+    /// Relative difference of the albedo between geological units (default 0.5).
     pub unit_contrast: f64,
     /// Wavelength in m of the largest pattern of geological units (default 3500).
     pub largest_unit_m: f64,
-    /// Wavelength in m of the smallest pattern of geological units (default 25).
+    /// Wavelength in m of the smallest pattern of geological units (default 10).
     pub smallest_unit_m: f64,
-    /// Height of the scarp at the edge of a unit over the wavelength of its pattern (default 0.006).
+    /// Height of the scarp at the edge of a unit over the wavelength of its pattern (default 0.007).
     pub scarp_ratio: f64,
     /// No crater is deeper, no rock, hummock, ripple or scarp higher than this times its distance from the landing point (default 0.05).
     pub site_slope: f64,
@@ -92,13 +92,13 @@ impl Default for TerrainConfig {
             largest_wavelength_m: 6000.0,
             smallest_wavelength_m: 0.02,
             hurst: 0.8,
-            rms_slope: 0.09,
+            rms_slope: 0.085,
             slope_scale_m: 1.0,
             albedo: 0.2,
             photometry: Photometry::default(),
             sky_light: 0.15,
-            albedo_contrast: 0.015,
-            crater_density: 0.35,
+            albedo_contrast: 0.025,
+            crater_density: 0.45,
             smallest_crater_m: 0.3,
             largest_crater_m: 800.0,
             crater_exponent: 2.0,
@@ -108,13 +108,13 @@ impl Default for TerrainConfig {
             largest_rock_m: 4.0,
             hummock_density: 0.5,
             smallest_hummock_m: 2.0,
-            largest_hummock_m: 64.0,
-            hummock_height_ratio: 0.08,
+            largest_hummock_m: 256.0,
+            hummock_height_ratio: 0.1,
             ripple_cover: 0.3,
             largest_ripple_m: 28.0,
             smallest_ripple_m: 0.5,
             ripple_height_ratio: 0.07,
-            unit_contrast: 0.45,
+            unit_contrast: 0.5,
             largest_unit_m: 3500.0,
             smallest_unit_m: 10.0,
             scarp_ratio: 0.007,

@@ -22,13 +22,13 @@ pub(super) struct TerrainFeatures {
 /// Wavelength over that of the next smaller class of units.
 const UNIT_STEP: f64 = 4.0;
 /// Contrast of a class of units over that of the next larger one.
-const UNIT_CONTRAST_STEP: f64 = 0.7;
-/// Contrast across scarps of all but the largest class, over that of drifts of the same size.
-const SMALL_SCARP_CONTRAST: f64 = 0.35;
+const UNIT_CONTRAST_STEP: f64 = 0.8;
+/// Contrast of all but the two largest classes, over what the step makes of it.
+const SMALL_UNIT_CONTRAST: f64 = 0.35;
 /// How much darker the faces of scarps are, over the contrast of units.
 const FACE_CONTRAST: f64 = 0.6;
 /// Half-width of a contact without a scarp over the wavelength of its units.
-const SOFT_CONTACT: f64 = 0.05;
+const SOFT_CONTACT: f64 = 0.2;
 /// Wavelength over that of the next smaller class of ripples.
 const RIPPLE_STEP: f64 = 3.7;
 /// Wavelength of the patches of ground on which craters last, m.
@@ -178,14 +178,14 @@ fn units(config: &TerrainConfig, octaves: &[NoiseOctave], seed: u64) -> Vec<Unit
     let unit = |(wavelength_m, index): (f64, u64)| {
         let is_scarp = index % 2 == 0;
         let scarp_m = if is_scarp { config.scarp_ratio * wavelength_m } else { 0.0 };
-        let sharp = if is_scarp && index > 0 { SMALL_SCARP_CONTRAST } else { 1.0 };
+        let faint = if index > 1 { SMALL_UNIT_CONTRAST } else { 1.0 };
         UnitClass {
             field: NoiseOctave::field(wavelength_m, seed, "terrain-units", index),
             first_octave: first_displacing(wavelength_m, octaves),
             scarp_m,
             half_width_m: if is_scarp { HALF_WIDTH * scarp_m } else { SOFT_CONTACT * wavelength_m },
             site_slope: config.site_slope,
-            contrast: config.unit_contrast * sharp * UNIT_CONTRAST_STEP.powi(index as i32),
+            contrast: config.unit_contrast * faint * UNIT_CONTRAST_STEP.powi(index as i32),
             face_contrast: if is_scarp { -FACE_CONTRAST * config.unit_contrast } else { 0.0 },
         }
     };

@@ -38,7 +38,7 @@ impl RippleClass {
     /// Wavelength of the field that bends crests over that of the ripples.
     pub const BEND_WAVELENGTHS: f64 = 7.0;
     /// Share of the bending field in the sum that tells where sand lies.
-    pub const COVER_BY_BEND: f64 = 0.5;
+    pub const COVER_BY_BEND: f64 = 0.3;
     /// Phase that the bending field adds, in wavelengths.
     const BEND_PHASE: f64 = 2.2;
     /// Growth of the sum over which sand thickens to its full height.
@@ -46,22 +46,23 @@ impl RippleClass {
 
     /// Adds what the ripples do to a place (m).
     pub(super) fn add_to(&self, total: &mut FeatureSample, at: &Vector2<f64>, tables: [Option<&NoiseTable>; 2]) {
-        let cover = self.cover.sample_planar_from(tables[0], at.x, at.y);
+        let [cover, _] = self.cover.values_planar_from(tables[0], at.x, at.y);
         // The bending field cannot exceed 1.
-        if cover.relief + Self::COVER_BY_BEND <= self.least_cover {
+        if cover + Self::COVER_BY_BEND <= self.least_cover {
             return;
         }
-        let bend = self.bend.sample_planar_from(tables[1], at.x, at.y);
-        let excess = (cover.relief + Self::COVER_BY_BEND * bend.relief - self.least_cover) / Self::EDGE;
+        let [bend, _] = self.bend.values_planar_from(tables[1], at.x, at.y);
+        let excess = (cover + Self::COVER_BY_BEND * bend - self.least_cover) / Self::EDGE;
         if excess <= 0.0 {
             return;
         }
+        let cover_gradient = self.cover.sample_planar_from(tables[0], at.x, at.y).relief_gradient.xy();
+        let bend_gradient = self.bend.sample_planar_from(tables[1], at.x, at.y).relief_gradient.xy();
         let s = excess.min(1.0);
         let sand = s * s * (3.0 - 2.0 * s);
-        let sand_gradient = (cover.relief_gradient.xy() + bend.relief_gradient.xy() * Self::COVER_BY_BEND)
-            * (6.0 * s * (1.0 - s) / Self::EDGE);
-        let phase = self.across.dot(at) / self.wavelength_m + Self::BEND_PHASE * bend.relief;
-        let phase_gradient = self.across / self.wavelength_m + bend.relief_gradient.xy() * Self::BEND_PHASE;
+        let sand_gradient = (cover_gradient + bend_gradient * Self::COVER_BY_BEND) * (6.0 * s * (1.0 - s) / Self::EDGE);
+        let phase = self.across.dot(at) / self.wavelength_m + Self::BEND_PHASE * bend;
+        let phase_gradient = self.across / self.wavelength_m + bend_gradient * Self::BEND_PHASE;
         let (sin, cos) = (TAU * (phase - phase.floor())).sin_cos();
         let half = 0.5 * (1.0 + cos);
         let (wave, wave_slope) = (half * half, -half * sin * TAU);

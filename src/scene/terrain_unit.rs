@@ -47,9 +47,9 @@ impl UnitClass {
         (table, detail): (Option<&NoiseTable>, &GroundDetail),
         ground: &OctaveSums,
     ) {
-        let field = self.field.sample_planar_from(table, at.x, at.y);
+        let [field, _] = self.field.values_planar_from(table, at.x, at.y);
         let per_field_m = DISTANCE_PER_FIELD * self.field.wavelength_m;
-        let distance_m = per_field_m * field.relief + ground.displacement_m(self.first_octave);
+        let distance_m = per_field_m * field + ground.displacement_m(self.first_octave);
         // No narrower than the details that are evaluated, so that vertices do not miss it.
         let half_width_m = self.half_width_m.hypot(detail.height_m).max(1e-3);
         let across = distance_m / half_width_m;
@@ -63,8 +63,8 @@ impl UnitClass {
         // The face fades with the width that its slope is spread over.
         total.albedo += self.face_contrast * flat * flat * (self.half_width_m / half_width_m);
         if self.scarp_m > 0.0 {
-            let distance_gradient =
-                field.relief_gradient.xy() * per_field_m + ground.displacement_gradient(self.first_octave);
+            let field_gradient = self.field.sample_planar_from(table, at.x, at.y).relief_gradient.xy();
+            let distance_gradient = field_gradient * per_field_m + ground.displacement_gradient(self.first_octave);
             let (scarp_m, _) = grown_from_site(self.scarp_m, self.site_slope, at);
             total.gradient += distance_gradient * (scarp_m * 0.75 * flat / half_width_m);
         }
