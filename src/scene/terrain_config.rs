@@ -26,7 +26,7 @@ pub struct TerrainConfig {
     pub smallest_wavelength_m: f64,
     /// Hurst exponent of the relief, 0 to 1 (default 0.8).
     pub hurst: f64,
-    /// R.m.s. slope of the relief of all wavelengths down to `slope_scale_m`, rise over run (default 0.085).
+    /// R.m.s. slope of the relief of all wavelengths down to `slope_scale_m`, rise over run (default 0.075).
     pub rms_slope: f64,
     /// Wavelength in m that `rms_slope` is stated at (default 1).
     pub slope_scale_m: f64,
@@ -36,7 +36,7 @@ pub struct TerrainConfig {
     pub photometry: Photometry,
     /// Radiance of the sky over that of a sunlit white surface (default 0.15, a hazy Martian sky).
     pub sky_light: f64,
-    /// Relative r.m.s. variation of the albedo, per octave (default 0.025); less at wavelengths of
+    /// Relative r.m.s. variation of the albedo, per octave (default 0.03); less at wavelengths of
     /// kilometres.
     pub albedo_contrast: f64,
     /// Probability of each crater that a cell of the crater grid can hold, for the smallest craters, 0 (none) to 1 (default
@@ -46,9 +46,9 @@ pub struct TerrainConfig {
     pub smallest_crater_m: f64,
     /// Largest crater diameter in m (default 800).
     pub largest_crater_m: f64,
-    /// Exponent b of the number of craters larger than a diameter, N(>D) ~ D^-b (default 2).
+    /// Exponent b of the number of craters larger than a diameter, N(>D) ~ D^-b (default 1.85).
     pub crater_exponent: f64,
-    /// Depth over diameter of a fresh crater (default 0.18).
+    /// Depth over diameter of a fresh crater (default 0.2).
     pub crater_depth_ratio: f64,
     /// Total abundance k of rocks: the share of the ground that rocks of all sizes cover by Golombek's law, 0 (none) to
     /// 0.4 (default 0.07).
@@ -64,7 +64,7 @@ pub struct TerrainConfig {
     pub smallest_hummock_m: f64,
     /// Largest hummock in m (default 256).
     pub largest_hummock_m: f64,
-    /// Height of the highest hummocks over their diameter (default 0.1).
+    /// Height of the highest hummocks over their diameter (default 0.08).
     pub hummock_height_ratio: f64,
     /// Share of the ground under ripples of each size, 0 (none) to 1 (default 0.3).
     pub ripple_cover: f64,
@@ -74,7 +74,7 @@ pub struct TerrainConfig {
     pub smallest_ripple_m: f64,
     /// Height of ripples over the distance between crests (default 0.07).
     pub ripple_height_ratio: f64,
-    /// Relative difference of the albedo between geological units (default 0.5).
+    /// Relative difference of the albedo between geological units (default 0.51).
     pub unit_contrast: f64,
     /// Wavelength in m of the largest pattern of geological units (default 3500).
     pub largest_unit_m: f64,
@@ -92,29 +92,29 @@ impl Default for TerrainConfig {
             largest_wavelength_m: 6000.0,
             smallest_wavelength_m: 0.02,
             hurst: 0.8,
-            rms_slope: 0.085,
+            rms_slope: 0.075,
             slope_scale_m: 1.0,
             albedo: 0.2,
             photometry: Photometry::default(),
             sky_light: 0.15,
-            albedo_contrast: 0.025,
+            albedo_contrast: 0.03,
             crater_density: 0.45,
             smallest_crater_m: 0.3,
             largest_crater_m: 800.0,
-            crater_exponent: 2.0,
-            crater_depth_ratio: 0.18,
+            crater_exponent: 1.85,
+            crater_depth_ratio: 0.2,
             rock_abundance: 0.07,
             smallest_rock_m: 0.06,
             largest_rock_m: 4.0,
             hummock_density: 0.5,
             smallest_hummock_m: 2.0,
             largest_hummock_m: 256.0,
-            hummock_height_ratio: 0.1,
+            hummock_height_ratio: 0.08,
             ripple_cover: 0.3,
             largest_ripple_m: 28.0,
             smallest_ripple_m: 0.5,
             ripple_height_ratio: 0.07,
-            unit_contrast: 0.5,
+            unit_contrast: 0.51,
             largest_unit_m: 3500.0,
             smallest_unit_m: 10.0,
             scarp_ratio: 0.007,

@@ -3,17 +3,26 @@
 use image::{GrayImage, imageops};
 use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector2, Vector3};
 use opnav::evaluation::PictureStatistics;
-use opnav::geometry::Camera;
-use opnav::render::{Gpu, RenderConfig, Renderer, World, expose};
+use opnav::geometry::{Camera, Distortion};
+use opnav::render::{Detector, Gpu, RenderConfig, Renderer, World};
 use opnav::scene::{SensorConfig, SunConfig, Terrain, TerrainConfig, View, sun_angular_radius_rad};
 use opnav::vision::{DetectorConfig, detect_harris};
 use std::path::{Path, PathBuf};
 
-/// Edge of the middle of the pictures that is compared, px: there the lens is a pinhole to 4 % of the field.
+/// Edge of the middle of the pictures that is compared, px.
 const EDGE_PX: u32 = 400;
-/// The landing camera of Mars 2020 at 800 px: mean focal length and principal point in px.
-const FOCAL_PX: f64 = 469.138;
-const CENTER_PX: [f64; 2] = [401.0, 410.7];
+/// Its first column and row in the photographs.
+const CORNER_PX: [u32; 2] = [201, 210];
+
+/// The middle of the landing camera of Mars 2020 at 800 px: a fisheye fitted to its published model.
+fn camera() -> Camera {
+    Camera {
+        focal_px: Vector2::new(469.147537, 469.129819),
+        center_px: Vector2::new(401.003638, 410.699309) - Vector2::from(CORNER_PX.map(f64::from)),
+        distortion: Distortion::Equidistant([0.120292, 0.033713, -0.000063, 0.000032]),
+        ..Camera::from_fov(EDGE_PX, EDGE_PX, 1.0)
+    }
+}
 
 /// Time since the first frame in s and height above ground in m at the ends of both phases of the landing.
 fn height_m(number: usize, t_s: f64) -> f64 {
@@ -33,7 +42,7 @@ fn photographs() -> Option<Vec<Photograph>> {
     let read = |(index, line): (usize, &str)| {
         let (t_ns, name) = line.split_once(',')?;
         let picture = image::open(folder.join("data").join(name)).ok()?.to_luma8();
-        let [left, top] = CENTER_PX.map(|c| c as u32 - EDGE_PX / 2);
+        let [left, top] = CORNER_PX;
         let picture = imageops::crop_imm(&picture, left, top, EDGE_PX, EDGE_PX).to_image();
         let number = index + 1;
         Some(Photograph { number, height_m: height_m(number, t_ns.parse::<f64>().ok()? * 1e-9), picture })
@@ -56,8 +65,10 @@ fn rendered(renderer: &mut Renderer, terrain: &Terrain, number: usize, height_m:
         sun_angular_radius_rad: sun_angular_radius_rad(1.59),
     };
     // A signal-to-noise ratio of 80 at half full well.
-    let detector = SensorConfig { full_well_electrons: 12_800.0, ..SensorConfig::default() };
-    expose(&renderer.render(&view).expect("a picture"), &detector, 1, number as i64)
+    let config = SensorConfig { full_well_electrons: 12_800.0, ..SensorConfig::default() };
+    let frame = renderer.render(&view).expect("a picture");
+    let picture = Detector::new(&camera(), &config, 1, 0).expose(&frame, view.t_ns);
+    picture.to_image().expect("a picture").to_luma8()
 }
 
 /// Slope of the spectrum, kurtosis of gradients, spread of grey levels, number of Harris features.
@@ -88,7 +99,7 @@ fn accuracy_realism() {
         return;
     };
     let terrain = Terrain::new(&TerrainConfig::default(), 1);
-    let camera = Camera { focal_px: Vector2::repeat(FOCAL_PX), ..Camera::from_fov(EDGE_PX, EDGE_PX, 1.0) };
+    let camera = camera();
     let gpu = Gpu::new(None).expect("a graphics adapter");
     let mut renderer =
         Renderer::new(&gpu, World::Terrain(&terrain), &camera, &RenderConfig::default()).expect("a renderer");

@@ -1,6 +1,6 @@
 //! Texture in the pictures of the reference descent, from the first to the last.
 
-use opnav::render::{Gpu, RenderConfig, Renderer, World, expose};
+use opnav::render::{Detector, Gpu, RenderConfig, Renderer, World};
 use opnav::scene::{DescentScene, Scenario, Scene};
 use opnav::vision::{DetectorConfig, Feature, detect_harris};
 use std::path::Path;
@@ -27,10 +27,11 @@ fn features(share_of_descent: &[f64]) -> Vec<(f64, usize, usize)> {
     let mut renderer =
         Renderer::new(&gpu, World::Terrain(&scene.terrain), &camera.sensor.camera, &RenderConfig::default())
             .expect("a renderer");
+    let detector = Detector::new(&camera.sensor.camera, &camera.detector, 1, 0);
     let counts = |share: &f64| {
         let view = &camera.views[(share * (camera.views.len() - 1) as f64).round() as usize];
         let frame = renderer.render(view).expect("a picture");
-        let picture = expose(&frame, &camera.detector, 1, view.t_ns);
+        let picture = detector.expose(&frame, view.t_ns).to_image().expect("a picture").to_luma8();
         let found = detect_harris(&picture, None, &DetectorConfig::default()).expect("features");
         let height_m = view.reference_from_camera.translation.vector.z;
         let fewest = fewest_in_cell(&found, [picture.width(), picture.height()]);
