@@ -141,9 +141,9 @@ impl Terrain {
         self.features.hummocks.iter().take_while(move |h| h.scatter.smallest_m >= smallest_m)
     }
 
-    /// Classes of ripples that a choice of details shows: each wave needs two of the smallest features' diameters.
+    /// Classes of ripples that a choice of details shows: each wave needs a little more than the smallest features.
     pub(super) fn ripples(&self, detail: &GroundDetail) -> impl Iterator<Item = &RippleClass> {
-        let shortest_m = 2.0 * detail.feature_m;
+        let shortest_m = 1.25 * detail.feature_m;
         self.features.ripples.iter().take_while(move |r| r.wavelength_m >= shortest_m)
     }
 

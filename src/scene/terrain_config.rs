@@ -51,7 +51,7 @@ pub struct TerrainConfig {
     /// Depth over diameter of a fresh crater (default 0.2).
     pub crater_depth_ratio: f64,
     /// Total abundance k of rocks: the share of the ground that rocks of all sizes cover by Golombek's law, 0 (none) to
-    /// 0.4 (default 0.07).
+    /// 0.4 (default 0.05).
     pub rock_abundance: f64,
     /// Smallest rock in m (default 0.06).
     pub smallest_rock_m: f64,
@@ -103,7 +103,7 @@ impl Default for TerrainConfig {
             largest_crater_m: 800.0,
             crater_exponent: 1.85,
             crater_depth_ratio: 0.2,
-            rock_abundance: 0.07,
+            rock_abundance: 0.05,
             smallest_rock_m: 0.06,
             largest_rock_m: 4.0,
             hummock_density: 0.5,

@@ -1,11 +1,11 @@
 //! Rendered ground beside photographed ground: the statistics of pictures from the same heights.
 
 use image::{GrayImage, imageops};
-use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Isometry3, Matrix3, Unit, UnitQuaternion, Vector2, Vector3};
 use opnav::evaluation::PictureStatistics;
 use opnav::geometry::{Camera, Distortion};
 use opnav::render::{Detector, Gpu, RenderConfig, Renderer, World};
-use opnav::scene::{SensorConfig, SunConfig, Terrain, TerrainConfig, View, sun_angular_radius_rad};
+use opnav::scene::{SensorConfig, Terrain, TerrainConfig, View, sun_angular_radius_rad};
 use opnav::vision::{DetectorConfig, detect_harris};
 use std::path::{Path, PathBuf};
 
@@ -57,11 +57,13 @@ fn rendered(renderer: &mut Renderer, terrain: &Terrain, number: usize, height_m:
     let eye = Vector3::new(600.0 + along_m, -900.0 - 0.4 * along_m, 0.0);
     let eye = eye + Vector3::z() * (height_m + terrain.height_m(eye.x, eye.y));
     // Mid-afternoon, as on 18 February 2021.
-    let sun = SunConfig { elevation_deg: 31.0, ..SunConfig::default() };
+    let (azimuth_rad, elevation_rad) = (150.0_f64.to_radians(), 31.0_f64.to_radians());
+    let across = elevation_rad.cos();
+    let sun = Vector3::new(across * azimuth_rad.cos(), across * azimuth_rad.sin(), elevation_rad.sin());
     let view = View {
         t_ns: number as i64,
         reference_from_camera: Isometry3::from_parts(eye.into(), UnitQuaternion::from_matrix(&rotation)),
-        sun_in_reference: sun.sun_in_site(),
+        sun_in_reference: Unit::new_normalize(sun),
         sun_angular_radius_rad: sun_angular_radius_rad(1.59),
     };
     // A signal-to-noise ratio of 80 at half full well.

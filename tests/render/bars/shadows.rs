@@ -145,14 +145,12 @@ fn steep() -> TerrainConfig {
         smallest_wavelength_m: 100.0,
         rms_slope: 0.25,
         slope_scale_m: 100.0,
+        crater_density: 0.5,
         smallest_crater_m: 100.0,
         largest_crater_m: 400.0,
         crater_depth_ratio: 0.3,
-        rock_density: 0.8,
-        smallest_rock_m: 80.0,
-        largest_rock_m: 100.0,
         site_slope: 1.0,
-        ..TerrainConfig::default()
+        ..TerrainConfig::default().without_features()
     }
 }
 
