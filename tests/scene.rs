@@ -2,7 +2,10 @@
 
 mod attachment;
 mod bodies;
+mod body_albedo;
+mod body_boulders;
 mod body_formats;
+mod body_motion;
 mod cameras;
 mod descent;
 mod elevation_files;

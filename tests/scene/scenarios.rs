@@ -24,12 +24,12 @@ fn every_shipped_scenario_reads_resolves_and_builds() {
         assert_eq!(scenario, self::scenario(&scenario.to_toml()).unwrap(), "{}", path.display());
         match scenario.build(datasets()).unwrap() {
             Scene::Descent(scene) => assert!(scene.cameras[0].views.len() >= 60, "{}", path.display()),
-            Scene::Tumbling(scene) => assert_eq!(scene.cameras[0].views.len(), 60, "{}", path.display()),
+            Scene::Tumbling(scene) => assert!(scene.cameras[0].views.len() >= 60, "{}", path.display()),
             Scene::Attachment(scene) => assert_eq!(scene.cameras[2].views.len(), 61, "{}", path.display()),
         }
         count += 1;
     }
-    assert!(count >= 10, "{count} scenarios");
+    assert!(count >= 12, "{count} scenarios");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Impact craters of a small body.
 
+use super::boulder::SizeLaw;
 use nalgebra::Vector3;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -20,12 +21,10 @@ pub(super) struct BodyCrater {
 }
 
 impl BodyCrater {
-    /// Crater at a place on the surface whose radius follows N(>R) ~ R^-2 between the two limits, in m.
-    pub fn random(center_m: Vector3<f64>, radii_m: (f64, f64), random: &mut ChaCha8Rng) -> Self {
-        let (smallest, largest) = radii_m;
-        let share: f64 = random.random();
-        let inverse_square = (1.0 - share) * smallest.powi(-2) + share * largest.powi(-2);
-        BodyCrater { center_m, radius_m: inverse_square.powf(-0.5), freshness: random.random_range(0.4..1.0) }
+    /// Crater at a place on the surface.
+    pub fn random(center_m: Vector3<f64>, sizes: &SizeLaw, random: &mut ChaCha8Rng) -> Self {
+        let radius_m = sizes.radius_m(random.random());
+        BodyCrater { center_m, radius_m, freshness: random.random_range(0.4..1.0) }
     }
 
     /// Change of height in m at a point.

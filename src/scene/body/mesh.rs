@@ -62,6 +62,13 @@ impl Mesh {
         (center_m, self.vertices_m.iter().map(|v| (v - center_m).norm()).fold(0.0, f64::max))
     }
 
+    /// Adds another mesh's vertices and faces; its albedo is left out.
+    pub fn append(&mut self, other: &Mesh) {
+        let first = self.vertices_m.len() as u32;
+        self.vertices_m.extend_from_slice(&other.vertices_m);
+        self.faces.extend(other.faces.iter().map(|face| face.map(|vertex| first + vertex)));
+    }
+
     /// The mesh moved by `shift_m`.
     pub fn translated(mut self, shift_m: &Vector3<f64>) -> Self {
         for vertex in &mut self.vertices_m {

@@ -32,6 +32,20 @@ impl Mesh {
         Err(SceneError::NotSolid { problem })
     }
 
+    /// Number of parts that share no vertex.
+    pub fn part_count(&self) -> usize {
+        let mut root: Vec<u32> = (0..self.vertices_m.len() as u32).collect();
+        let mut joins = 0;
+        for &[a, b, c] in &self.faces {
+            for other in [b, c] {
+                let (one, other) = (find(&mut root, a), find(&mut root, other));
+                joins += usize::from(one != other);
+                root[one.max(other) as usize] = one.min(other);
+            }
+        }
+        self.vertices_m.len() - joins
+    }
+
     /// Every face's run through its three edges: lower vertex, higher vertex, and whether it runs downwards (1) or
     /// upwards (0). Runs through one edge are neighbours.
     fn sorted_edges(&self) -> Vec<[u32; 3]> {
@@ -41,4 +55,14 @@ impl Mesh {
         runs.par_sort_unstable();
         runs
     }
+}
+
+/// Root of a vertex's part; the way there is halved for the next time.
+fn find(root: &mut [u32], mut vertex: u32) -> u32 {
+    while root[vertex as usize] != vertex {
+        let next = root[vertex as usize];
+        root[vertex as usize] = root[next as usize];
+        vertex = next;
+    }
+    vertex
 }

@@ -6,6 +6,7 @@
 
 mod albedo_image;
 mod albedo_map;
+mod boulder;
 mod crater;
 mod icosphere;
 mod mass_properties;
@@ -13,6 +14,7 @@ mod mesh;
 mod mesh_albedo;
 mod mesh_file;
 mod mesh_landmarks;
+mod mesh_ray;
 mod mesh_topology;
 mod obj;
 mod ply;

@@ -1,12 +1,12 @@
 //! From settings to a tumbling scene.
 
-use super::placement::center_in_camera_m;
+use super::placement::{first_distance_m, toward_pixel};
 use super::rigid_body::rows;
 use super::{RigidBody, Spin, TumblingConfig};
 
 use crate::dataset::truth::{AsteroidInertia, AsteroidState, Landmark};
 use crate::dataset::{CameraId, CameraSensor};
-use crate::scene::{Imager, SceneCamera, SceneError, Sky, SmallBody, View};
+use crate::scene::{Imager, Mesh, SceneCamera, SceneError, Sky, SmallBody, View};
 use nalgebra::{Isometry3, Translation3, Unit, Vector2, Vector3};
 use std::path::Path;
 
@@ -21,8 +21,10 @@ pub struct TumblingScene {
     pub states: Vec<AsteroidState>,
     /// True inertia tensor in asteroid axes, the last element 1.
     pub inertia: AsteroidInertia,
-    /// Centre of the body in the spacecraft's frame (the nominal camera's), m; it does not move.
+    /// Centre of the body in the spacecraft's frame (the nominal camera's) at t = 0, m.
     pub center_in_spacecraft_m: Vector3<f64>,
+    /// Velocity at which the spacecraft approaches the body's centre, in its own frame, m/s; zero if it hovers.
+    pub approach_in_spacecraft_m_s: Vector3<f64>,
     /// Direction to the Sun in the spacecraft's frame; it does not move.
     pub sun_in_spacecraft: Unit<Vector3<f64>>,
     /// Angular radius of the Sun's disc, rad.
@@ -48,20 +50,18 @@ impl TumblingScene {
     ) -> Result<TumblingScene, SceneError> {
         let (mesh, shape) = config.shape.centered_mesh(config.surface.albedo_map.as_ref(), base_folder, seed)?;
         let rigid_body = config.inertia.rigid_body(&shape)?;
-        let offset_px = Vector2::from(config.center_offset_px);
         let first_camera = &imagers[0].camera;
-        let center_in_spacecraft_m =
-            center_in_camera_m(first_camera, mesh.radius_m(), config.fill_fraction, &offset_px);
-        if center_in_spacecraft_m.z <= mesh.radius_m() {
-            let cure = "the camera would be inside the body: make it smaller";
-            return Err(SceneError::out_of_range("tumbling.fill_fraction", config.fill_fraction, cure));
-        }
+        let toward_center = toward_pixel(first_camera, &Vector2::from(config.center_offset_px));
+        let distance_m = first_distance_m(config, first_camera, &mesh, &toward_center);
+        let center_in_spacecraft_m = toward_center.into_inner() * distance_m;
         let inertial_from_icrf = config.icrf_rotation();
         let sunlight = config.sun.sunlight_in_camera(&center_in_spacecraft_m, &inertial_from_icrf, base_folder);
         let sunlight = sunlight.map_err(|e| e.under("sun").under("tumbling"))?;
         let states = states(config, &rigid_body);
+        check_approach(config, distance_m, &states)?;
         let mut scene = TumblingScene {
             cameras: Vec::new(),
+            approach_in_spacecraft_m_s: toward_center.into_inner() * config.approach_m_s,
             inertia: AsteroidInertia { inertia: rows(rigid_body.inertia()) },
             sun_in_spacecraft: sunlight.direction,
             sun_angular_radius_rad: sunlight.angular_radius_rad(),
@@ -73,6 +73,9 @@ impl TumblingScene {
             body: SmallBody { surface: config.surface.on(&mesh, seed), mesh },
         };
         scene.cameras = (0..).zip(imagers).map(|entry| scene.camera(entry, 1.0 / config.interval_s)).collect();
+        for camera in &scene.cameras {
+            check_first_view(config, &scene.body.mesh, &camera.views[0])?;
+        }
         Ok(scene)
     }
 
@@ -101,7 +104,8 @@ impl TumblingScene {
     /// A point p of the spacecraft's frame is A (p - c) in asteroid axes, with A the attitude and c the body's centre.
     fn view(&self, sensor: &CameraSensor, state: &AsteroidState) -> View {
         let attitude = state.asteroid_from_inertial;
-        let spacecraft_in_asteroid_m = -(attitude * self.center_in_spacecraft_m);
+        let approached_m = self.approach_in_spacecraft_m_s * (state.t_ns as f64 * 1e-9);
+        let spacecraft_in_asteroid_m = attitude * (approached_m - self.center_in_spacecraft_m);
         let asteroid_from_spacecraft = Isometry3::from_parts(Translation3::from(spacecraft_in_asteroid_m), attitude);
         View {
             t_ns: state.t_ns,
@@ -127,4 +131,25 @@ fn states(config: &TumblingConfig, body: &RigidBody) -> Vec<AsteroidState> {
         });
     }
     states
+}
+
+/// Checks that the camera is outside the body in the first picture; drawing checks the others.
+fn check_first_view(config: &TumblingConfig, mesh: &Mesh, view: &View) -> Result<(), SceneError> {
+    let camera_m = view.reference_from_camera.translation.vector;
+    if camera_m.norm() > mesh.radius_m() || mesh.surrounds(&camera_m) == 0 {
+        return Ok(());
+    }
+    let (key, value) = config.distance_key();
+    let cure = format!("the camera would be inside the body, whose radius is {:.3} m: move it out", mesh.radius_m());
+    Err(SceneError::out_of_range(&format!("tumbling.{key}"), value, cure))
+}
+
+/// Checks that the camera does not fly through the body.
+fn check_approach(config: &TumblingConfig, distance_m: f64, states: &[AsteroidState]) -> Result<(), SceneError> {
+    let last_s = states.last().map_or(0.0, |state| state.t_ns as f64 * 1e-9);
+    if distance_m > config.approach_m_s * last_s {
+        return Ok(());
+    }
+    let cure = "the camera would pass the body's centre: approach more slowly or from farther away";
+    Err(SceneError::out_of_range("tumbling.approach_m_s", config.approach_m_s, cure))
 }

@@ -22,6 +22,15 @@ pub struct TumblingConfig {
     pub inertial_from_icrf: [f64; 4],
     /// Diameter of the body's bounding sphere over the smaller side of the picture, 0 to 1 (default 0.7).
     pub fill_fraction: f64,
+    /// Distance at t = 0 from the camera to the body's centre in m, instead of `fill_fraction` (default none).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub distance_m: Option<f64>,
+    /// Distance at t = 0 from the camera to the surface in m, along the line to the body's centre, instead of
+    /// `fill_fraction` (default none).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range_m: Option<f64>,
+    /// Speed of the camera toward the body's centre in m/s, negative to draw back (default 0).
+    pub approach_m_s: f64,
     /// Place of the body's centre in the picture, right and down from the middle, in px (default 0, 0).
     pub center_offset_px: [f64; 2],
     /// Number of landmarks on the surface for the ground truth (default 200).
@@ -47,6 +56,9 @@ impl Default for TumblingConfig {
             asteroid_from_inertial: [1.0, 0.0, 0.0, 0.0],
             inertial_from_icrf: [1.0, 0.0, 0.0, 0.0],
             fill_fraction: 0.7,
+            distance_m: None,
+            range_m: None,
+            approach_m_s: 0.0,
             center_offset_px: [0.0, 0.0],
             landmarks: 200,
             inertia: InertiaSource::default(),
@@ -88,6 +100,7 @@ impl TumblingConfig {
         limits::unit_quaternion("asteroid_from_inertial", &self.asteroid_from_inertial)?;
         limits::unit_quaternion("inertial_from_icrf", &self.inertial_from_icrf)?;
         limits::within("fill_fraction", self.fill_fraction, 1e-3, 1.0)?;
+        self.validate_distance()?;
         limits::finite("center_offset_px", &self.center_offset_px)?;
         limits::count("landmarks", self.landmarks, 0, 100_000)?;
         self.inertia.validate()?;
@@ -95,6 +108,26 @@ impl TumblingConfig {
         self.sky.validate().map_err(|e| e.under("sky"))?;
         self.surface.validate().map_err(|e| e.under("surface"))?;
         self.shape.validate().map_err(|e| e.under("shape"))
+    }
+
+    fn validate_distance(&self) -> Result<(), SceneError> {
+        if let (Some(_), Some(range_m)) = (self.distance_m, self.range_m) {
+            return Err(SceneError::out_of_range("range_m", range_m, "distance_m is given too: drop one of them"));
+        }
+        let (key, value) = self.distance_key();
+        if key != "fill_fraction" {
+            limits::within(key, value, 1e-3, 1e9)?;
+        }
+        limits::within("approach_m_s", self.approach_m_s, -1e5, 1e5)
+    }
+
+    /// The key that decides on the distance, and its value.
+    pub(super) fn distance_key(&self) -> (&'static str, f64) {
+        match (self.distance_m, self.range_m) {
+            (Some(distance_m), _) => ("distance_m", distance_m),
+            (None, Some(range_m)) => ("range_m", range_m),
+            (None, None) => ("fill_fraction", self.fill_fraction),
+        }
     }
 }
 
