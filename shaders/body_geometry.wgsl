@@ -1,4 +1,4 @@
-// A small body's mesh: surface normal and depth of each sample.
+// A small body's mesh: surface normal (its length is the albedo over the mean) and depth of each sample.
 
 struct Geometry {
     clip_from_relative: mat4x4<f32>, // relative = reference axes, camera at the origin, m
@@ -16,8 +16,7 @@ struct Varying {
     @location(1) depth: f32,
 }
 
-@vertex
-fn vertex(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> Varying {
+fn placed(position: vec3<f32>, normal: vec3<f32>) -> Varying {
     let relative = (position - geometry.camera_high.xyz) - geometry.camera_low.xyz;
     var out: Varying;
     out.clip = geometry.clip_from_relative * vec4(relative, 1.0);
@@ -26,7 +25,12 @@ fn vertex(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> V
     return out;
 }
 
+@vertex
+fn vertex(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> Varying {
+    return placed(position, normal);
+}
+
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
-    return vec4(in.normal, in.depth);
+    return vec4(normalize(in.normal), in.depth);
 }

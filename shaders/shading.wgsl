@@ -168,7 +168,7 @@ fn terrain_surface(sample: vec4<f32>, relative: vec3<f32>) -> Surface {
     return Surface(relative, normalize(vec3(-sample.xy, 1.0)), normalize(vec3(-gradient, 1.0)), clamped);
 }
 
-fn body_surface(sample: vec4<f32>, relative: vec3<f32>) -> Surface {
+fn body_surface(sample: vec4<f32>, relative: vec3<f32>, painted: f32) -> Surface {
     let smooth_normal = normalize(sample.xyz);
     let footprint = footprint_m(relative, sample.w, smooth_normal);
     var gradient = vec3(0.0);
@@ -184,7 +184,7 @@ fn body_surface(sample: vec4<f32>, relative: vec3<f32>) -> Surface {
         albedo += seen * octave.row_z.w * noise.albedo;
     }
     let tangent = gradient - smooth_normal * dot(smooth_normal, gradient);
-    let clamped = clamp(shading.surface.x * (1.0 + albedo), 0.005, 0.95);
+    let clamped = clamp(shading.surface.x * painted * (1.0 + albedo), 0.0, 0.95);
     return Surface(relative, smooth_normal, normalize(smooth_normal - tangent), clamped);
 }
 
@@ -305,16 +305,17 @@ fn mask_of(smooth_normal: vec3<f32>, light: f32) -> u32 {
 // The samples of one pixel between two depths, summed by their share of the pixel.
 struct Layer {
     share: f32,
-    numbers: vec3<f32>,   // normal or gradient, and albedo
+    numbers: vec3<f32>,   // normal, or gradient and albedo
+    painted: f32,         // albedo over the mean that a body's mesh carries: the length of its normal
     in_camera: vec3<f32>, // m
     nearest: f32,         // depths, m
     farthest: f32,
 }
 
-fn layer_of(pixel: vec2<u32>, near: f32, far: f32) -> Layer {
+fn layer_of(pixel: vec2<u32>, near: f32, far: f32, is_terrain: bool) -> Layer {
     let taps = shading.counts.x;
     let stride = shading.counts.y;
-    var layer = Layer(0.0, vec3(0.0), vec3(0.0), FARTHEST, 0.0);
+    var layer = Layer(0.0, vec3(0.0), 0.0, vec3(0.0), FARTHEST, 0.0);
     for (var k = 0u; k < taps * taps; k++) {
         let tap = vec2(k % taps, k / taps);
         let seen = seen_between(pixel * stride + tap, near, far);
@@ -324,7 +325,9 @@ fn layer_of(pixel: vec2<u32>, near: f32, far: f32) -> Layer {
             let share = halves.x * halves.y * seen.share;
             let depth = seen.in_camera.z;
             layer.share += share;
-            layer.numbers += share * seen.numbers;
+            let painted = select(length(seen.numbers), 1.0, is_terrain);
+            layer.numbers += share / painted * seen.numbers;
+            layer.painted += share * painted;
             layer.in_camera += share * seen.in_camera;
             layer.nearest = min(layer.nearest, depth);
             layer.farthest = max(layer.farthest, depth);
@@ -332,6 +335,7 @@ fn layer_of(pixel: vec2<u32>, near: f32, far: f32) -> Layer {
     }
     let inverse = 1.0 / max(layer.share, 1e-6);
     layer.numbers *= inverse;
+    layer.painted *= inverse;
     layer.in_camera *= inverse;
     layer.share /= f32(stride * stride);
     return layer;
@@ -349,7 +353,7 @@ fn surface_of(layer: Layer, is_terrain: bool) -> Surface {
     if is_terrain {
         return terrain_surface(vec4(layer.numbers, layer.in_camera.z), relative);
     }
-    return body_surface(vec4(layer.numbers, layer.in_camera.z), relative);
+    return body_surface(vec4(layer.numbers, layer.in_camera.z), relative, layer.painted);
 }
 
 fn smooth_normal_of(numbers: vec3<f32>, is_terrain: bool) -> vec3<f32> {
@@ -367,7 +371,7 @@ fn shade(target_position: vec4<f32>, is_terrain: bool) -> Shaded {
     let center = seen_at_center(pixel * shading.counts.y + shading.counts.x / 2u);
     let center_depth = select(0.0, center.in_camera.z, center.share > 0.0);
     out.outputs.depth = center_depth;
-    let all = layer_of(pixel, 0.0, FARTHEST);
+    let all = layer_of(pixel, 0.0, FARTHEST, is_terrain);
     if all.share <= 0.0 {
         return out;
     }
@@ -375,8 +379,8 @@ fn shade(target_position: vec4<f32>, is_terrain: bool) -> Shaded {
     var light = 0.0;
     if is_torn(all, out.center) {
         let middle = 0.5 * (all.nearest + all.farthest);
-        let front = layer_of(pixel, 0.0, middle);
-        let back = layer_of(pixel, middle, FARTHEST);
+        let front = layer_of(pixel, 0.0, middle, is_terrain);
+        let back = layer_of(pixel, middle, FARTHEST, is_terrain);
         let front_surface = surface_of(front, is_terrain);
         let back_surface = surface_of(back, is_terrain);
         let front_light = sunlight(front_surface);

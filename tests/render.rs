@@ -1,6 +1,7 @@
 //! Tests of the room `render`. They need a graphics adapter; Mesa's lavapipe will do.
 
 mod adapters;
+mod albedo;
 mod bars;
 mod depth;
 mod detector;

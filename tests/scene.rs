@@ -5,6 +5,7 @@ mod bodies;
 mod body_albedo;
 mod body_boulders;
 mod body_formats;
+mod body_large;
 mod body_motion;
 mod cameras;
 mod descent;

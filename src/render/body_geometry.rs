@@ -1,10 +1,11 @@
 //! Draws a small body's mesh (`shaders/body_geometry.wgsl`).
 
+use super::albedo_map::{self, AlbedoBuffers, PaintedVertices};
 use super::enclosure::encloses;
 use super::geometry_pass::{GeometryKind, GeometryPipelines, Role, buffer, uniform_entry};
-use super::gpu_data::{BodyVertex, Geometry};
+use super::gpu_data::{BodyVertex, Geometry, PaintedVertex};
 use super::{Gpu, RenderError};
-use crate::scene::{Mesh, View};
+use crate::scene::{Mesh, MeshAlbedo, View};
 use nalgebra::Vector3;
 use wgpu::util::DeviceExt;
 
@@ -22,30 +23,29 @@ pub(super) struct BodyGeometry {
 impl BodyGeometry {
     pub(super) fn new(gpu: &Gpu, mesh: &Mesh) -> Result<Self, RenderError> {
         check(mesh)?;
-        let (center_m, radius_m) = bounding_sphere(mesh);
-        let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
-        let layout = wgpu::VertexBufferLayout {
-            array_stride: size_of::<BodyVertex>() as u64,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &attributes,
-        };
-        let kind = GeometryKind {
-            source: include_str!("../../shaders/body_geometry.wgsl"),
-            buffers: &[Some(layout)],
-            bindings: &[uniform_entry(0, wgpu::ShaderStages::VERTEX)],
-        };
-        let pipelines = GeometryPipelines::new(gpu, &kind);
-        let uniforms = [Role::Picture, Role::Shadow].map(|role| uniform(gpu, &pipelines, role));
+        let (center_m, radius_m) = mesh.bounding_sphere();
+        let albedo = AlbedoBuffers::new(gpu, &mesh.albedo)?;
+        let pipelines = pipelines(gpu, albedo.is_some());
+        let uniforms = [Role::Picture, Role::Shadow].map(|role| uniform(gpu, &pipelines, (role, albedo.as_ref())));
         let upload = |contents: &[u8], usage| {
             gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some("mesh"), contents, usage })
         };
+        let normals = vertex_normals(mesh);
+        let (vertices, faces) = match albedo {
+            None => (bytemuck::pod_collect_to_vec(&plain_vertices(mesh, &normals)), None),
+            Some(_) => {
+                let painted = PaintedVertices::new(mesh);
+                (bytemuck::pod_collect_to_vec(&painted_vertices(mesh, &normals, &painted)), Some(painted.faces))
+            }
+        };
+        let faces = faces.as_ref().unwrap_or(&mesh.faces);
         Ok(BodyGeometry {
             center_m,
-            radius_m,
+            radius_m: radius_m.max(1e-6),
             pipelines,
             uniforms,
-            vertices: upload(bytemuck::cast_slice(&gpu_vertices(mesh)), wgpu::BufferUsages::VERTEX),
-            indices: upload(bytemuck::cast_slice(&mesh.faces), wgpu::BufferUsages::INDEX),
+            vertices: upload(&vertices, wgpu::BufferUsages::VERTEX),
+            indices: upload(bytemuck::cast_slice(faces), wgpu::BufferUsages::INDEX),
             mesh: mesh.clone(),
         })
     }
@@ -77,13 +77,56 @@ impl BodyGeometry {
     }
 }
 
-fn uniform(gpu: &Gpu, pipelines: &GeometryPipelines, role: Role) -> (wgpu::Buffer, wgpu::BindGroup) {
+/// Pipelines for a plain or a painted body.
+fn pipelines(gpu: &Gpu, is_painted: bool) -> GeometryPipelines {
+    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2];
+    let (size, count) = if is_painted { (size_of::<PaintedVertex>(), 3) } else { (size_of::<BodyVertex>(), 2) };
+    let layout = wgpu::VertexBufferLayout {
+        array_stride: size as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &attributes[..count],
+    };
+    let buffers = [Some(layout)];
+    let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
+    let bindings = [uniform_entry(0, vertex), uniform_entry(1, vertex | fragment), picture_entry(2)];
+    GeometryPipelines::new(
+        gpu,
+        &if is_painted {
+            let entries = ["painted_vertex", "painted_fragment"];
+            GeometryKind { source: albedo_map::SOURCE, entries, buffers: &buffers, bindings: &bindings }
+        } else {
+            let source = include_str!("../../shaders/body_geometry.wgsl");
+            GeometryKind { source, entries: ["vertex", "fragment"], buffers: &buffers, bindings: &bindings[..1] }
+        },
+    )
+}
+
+fn picture_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    let ty = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: false },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::FRAGMENT, ty, count: None }
+}
+
+fn uniform(
+    gpu: &Gpu,
+    pipelines: &GeometryPipelines,
+    (role, albedo): (Role, Option<&AlbedoBuffers>),
+) -> (wgpu::Buffer, wgpu::BindGroup) {
     let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
     let uniform = buffer(gpu, size_of::<Geometry>() as u64, usage);
+    let mut resources = vec![uniform.as_entire_binding()];
+    if let Some(albedo) = albedo {
+        resources.extend([albedo.uniform.as_entire_binding(), wgpu::BindingResource::TextureView(&albedo.picture)]);
+    }
+    let entries: Vec<_> =
+        (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
     let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("body geometry"),
         layout: &pipelines.of(role).get_bind_group_layout(0),
-        entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() }],
+        entries: &entries,
     });
     (uniform, group)
 }
@@ -100,33 +143,46 @@ fn check(mesh: &Mesh) -> Result<(), RenderError> {
     if let Some(f) = mesh.faces.iter().position(|face| face.iter().any(|i| *i as usize >= count)) {
         return unusable(format!("face {f} names a vertex beyond the last of {count}"));
     }
+    let fits = match &mesh.albedo {
+        MeshAlbedo::Vertices(values) => values.len() == count,
+        MeshAlbedo::Texture { corners, .. } => corners.len() == mesh.faces.len(),
+        MeshAlbedo::Uniform | MeshAlbedo::Globe(_) => true,
+    };
+    if !fits {
+        return unusable("its albedo is not given for every vertex or face".into());
+    }
     Ok(())
 }
 
-fn bounding_sphere(mesh: &Mesh) -> (Vector3<f64>, f64) {
-    let low = mesh.vertices_m.iter().fold(Vector3::repeat(f64::INFINITY), |low, v| low.inf(v));
-    let high = mesh.vertices_m.iter().fold(Vector3::repeat(f64::NEG_INFINITY), |high, v| high.sup(v));
-    let center = 0.5 * (low + high);
-    let radius = mesh.vertices_m.iter().map(|v| (v - center).norm()).fold(0.0, f64::max);
-    (center, radius.max(1e-6))
-}
-
-/// Vertices with angle-weighted normals, which do not depend on how the surface is cut into triangles.
+/// Angle-weighted normals of the vertices, which do not depend on how the surface is cut into triangles.
 ///
 /// Source: Thürmer and Wüthrich, "Computing vertex normals from polygonal facets", Journal of Graphics Tools 3(1), 1998.
-fn gpu_vertices(mesh: &Mesh) -> Vec<BodyVertex> {
+fn vertex_normals(mesh: &Mesh) -> Vec<[f32; 3]> {
     let mut normals = vec![Vector3::zeros(); mesh.vertices_m.len()];
     for face in &mesh.faces {
-        let [a, b, c] = face.map(|i| mesh.vertices_m[i as usize]);
+        let [a, b, c] = mesh.corners_m(face);
         let Some(normal) = (b - a).cross(&(c - a)).try_normalize(0.0) else { continue };
         let angles = [(b - a).angle(&(c - a)), (c - b).angle(&(a - b)), (a - c).angle(&(b - c))];
         for (i, angle) in face.iter().zip(angles) {
             normals[*i as usize] += normal * angle;
         }
     }
-    let vertex = |(p, n): (&Vector3<f64>, &Vector3<f64>)| {
-        let normal = n.try_normalize(0.0).unwrap_or_else(Vector3::z);
-        BodyVertex { position: p.map(|c| c as f32).into(), normal: normal.map(|c| c as f32).into() }
+    normals.iter().map(|n| single(&n.try_normalize(0.0).unwrap_or_else(Vector3::z))).collect()
+}
+
+fn single(v: &Vector3<f64>) -> [f32; 3] {
+    v.map(|c| c as f32).into()
+}
+
+fn plain_vertices(mesh: &Mesh, normals: &[[f32; 3]]) -> Vec<BodyVertex> {
+    let vertex = |(p, normal): (&Vector3<f64>, &[f32; 3])| BodyVertex { position: single(p), normal: *normal };
+    mesh.vertices_m.iter().zip(normals).map(vertex).collect()
+}
+
+fn painted_vertices(mesh: &Mesh, normals: &[[f32; 3]], painted: &PaintedVertices) -> Vec<PaintedVertex> {
+    let vertex = |&(index, paint): &(u32, [f32; 2])| {
+        let index = index as usize;
+        PaintedVertex { position: single(&mesh.vertices_m[index]), normal: normals[index], paint }
     };
-    mesh.vertices_m.iter().zip(&normals).map(vertex).collect()
+    painted.vertices.iter().map(vertex).collect()
 }

@@ -24,6 +24,8 @@ pub(super) struct GeometryPipelines {
 /// What differs between kinds of geometry.
 pub(super) struct GeometryKind<'a> {
     pub source: &'a str,
+    /// Entry points of the vertex and the fragment stage.
+    pub entries: [&'a str; 2],
     pub buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
     pub bindings: &'a [wgpu::BindGroupLayoutEntry],
 }
@@ -44,7 +46,7 @@ impl GeometryPipelines {
             bind_group_layouts: &[Some(&group)],
             immediate_size: 0,
         });
-        let build = |role| pipeline(device, &module, &layout, kind.buffers, role);
+        let build = |role| pipeline(device, &module, &layout, kind, role);
         GeometryPipelines { picture: build(Role::Picture), shadow: build(Role::Shadow) }
     }
 
@@ -60,7 +62,7 @@ fn pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,
     layout: &wgpu::PipelineLayout,
-    buffers: &[Option<wgpu::VertexBufferLayout>],
+    kind: &GeometryKind,
     role: Role,
 ) -> wgpu::RenderPipeline {
     let targets = [Some(wgpu::ColorTargetState::from(SAMPLE_FORMAT))];
@@ -73,9 +75,9 @@ fn pipeline(
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some("vertex"),
+            entry_point: Some(kind.entries[0]),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers,
+            buffers: kind.buffers,
         },
         primitive: wgpu::PrimitiveState { cull_mode, ..wgpu::PrimitiveState::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
@@ -88,7 +90,7 @@ fn pipeline(
         multisample: wgpu::MultisampleState::default(),
         fragment: (role == Role::Picture).then(|| wgpu::FragmentState {
             module,
-            entry_point: Some("fragment"),
+            entry_point: Some(kind.entries[1]),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &targets,
         }),

@@ -74,6 +74,23 @@ pub(super) struct BodyVertex {
     pub normal: [f32; 3],
 }
 
+/// Vertex of a small body with albedo painted on it: also texture coordinates, or the albedo over its mean and 0.
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct PaintedVertex {
+    pub position: [f32; 3],
+    pub normal: [f32; 3],
+    pub paint: [f32; 2],
+}
+
+/// `AlbedoMap` in `shaders/albedo_map.wgsl`.
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct AlbedoMap {
+    pub origin: [f32; 4],
+    pub counts: [u32; 4],
+}
+
 /// Columns of a matrix, rounded to f32.
 pub(super) fn columns(matrix: &Matrix4<f64>) -> [[f32; 4]; 4] {
     matrix.map(|v| v as f32).into()
@@ -119,6 +136,7 @@ mod tests {
         for source in [terrain, body] {
             assert_layout!(source, Geometry, [clip_from_relative, forward, camera_high, camera_low, level]);
         }
+        assert_layout!(super::super::albedo_map::SOURCE, AlbedoMap, [origin, counts]);
         assert_layout!(terrain, Tile, [base, spacing, slot]);
         assert_layout!(shading, Photometry, [model, asymmetry, opposition_amplitude, opposition_width, lunar, rough]);
         assert_layout!(shading, Octave, [row_x, row_y, row_z, cell, fraction]);

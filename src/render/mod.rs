@@ -8,6 +8,7 @@
 //! What a shutter collects over time is a mean of such pictures ([`Renderer::expose`]); a [`Detector`] makes digital
 //! numbers of it, on the CPU.
 
+mod albedo_map;
 mod body_geometry;
 mod enclosure;
 mod error;

@@ -29,6 +29,7 @@ impl TerrainGeometry {
     pub(super) fn new(gpu: &Gpu, terrain: &Terrain) -> Self {
         let kind = GeometryKind {
             source: include_str!("../../shaders/terrain_geometry.wgsl"),
+            entries: ["vertex", "fragment"],
             buffers: &[],
             bindings: &[uniform_entry(0, wgpu::ShaderStages::VERTEX), storage_entry(1), storage_entry(2)],
         };
