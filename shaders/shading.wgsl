@@ -188,14 +188,14 @@ fn body_surface(sample: vec4<f32>, relative: vec3<f32>, painted: f32) -> Surface
     return Surface(relative, smooth_normal, normalize(smooth_normal - tangent), clamped);
 }
 
-// Share of the Sun seen by a place, 0 to 1. Texels are compared with the plane through the place, so that a slope does
+// Share of the Sun seen by a place on the drawn surface, 0 to 1. Texels are compared with the plane through the place, so that a slope does
 // not shadow itself (Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", GDC 2006); what the plane misses of a
 // curved surface is covered by a lift of a part of a texel.
-fn sunlight(surface: Surface) -> f32 {
+fn sunlight(place: vec3<f32>, surface: Surface) -> f32 {
     let facing = dot(surface.smooth_normal, shading.sun.xyz);
     let cosine = clamp(facing, 0.02, 1.0);
     let lift_m = max(shading.shadow.x, shading.shadow.y) * (0.4 + 0.4 / max(cosine, 0.2));
-    let lifted = surface.relative + surface.smooth_normal * lift_m;
+    let lifted = place + surface.smooth_normal * lift_m;
     let at = (shading.shadow_from_relative * vec4(lifted, 1.0)).xyz;
     if any(at.xy < vec2(0.0)) || any(at.xy > vec2(1.0)) {
         return 1.0;
@@ -307,7 +307,8 @@ struct Layer {
     share: f32,
     numbers: vec3<f32>,   // normal, or gradient and albedo
     painted: f32,         // albedo over the mean that a body's mesh carries: the length of its normal
-    in_camera: vec3<f32>, // m
+    in_camera: vec3<f32>, // m; below a convex surface, for it is a mean
+    drawn: vec3<f32>,     // the sample nearest to the centre: on the surface, m
     nearest: f32,         // depths, m
     farthest: f32,
 }
@@ -315,7 +316,8 @@ struct Layer {
 fn layer_of(pixel: vec2<u32>, near: f32, far: f32, is_terrain: bool) -> Layer {
     let taps = shading.counts.x;
     let stride = shading.counts.y;
-    var layer = Layer(0.0, vec3(0.0), 0.0, vec3(0.0), FARTHEST, 0.0);
+    var layer = Layer(0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), FARTHEST, 0.0);
+    var off_center = FARTHEST;
     for (var k = 0u; k < taps * taps; k++) {
         let tap = vec2(k % taps, k / taps);
         let seen = seen_between(pixel * stride + tap, near, far);
@@ -329,6 +331,11 @@ fn layer_of(pixel: vec2<u32>, near: f32, far: f32, is_terrain: bool) -> Layer {
             layer.numbers += share / painted * seen.numbers;
             layer.painted += share * painted;
             layer.in_camera += share * seen.in_camera;
+            let off = vec2<f32>(tap) - 0.5 * f32(taps - 1u);
+            if dot(off, off) < off_center {
+                off_center = dot(off, off);
+                layer.drawn = seen.in_camera;
+            }
             layer.nearest = min(layer.nearest, depth);
             layer.farthest = max(layer.farthest, depth);
         }
@@ -383,8 +390,8 @@ fn shade(target_position: vec4<f32>, is_terrain: bool) -> Shaded {
         let back = layer_of(pixel, middle, FARTHEST, is_terrain);
         let front_surface = surface_of(front, is_terrain);
         let back_surface = surface_of(back, is_terrain);
-        let front_light = sunlight(front_surface);
-        let back_light = sunlight(back_surface);
+        let front_light = sunlight(relative_place(front.drawn), front_surface);
+        let back_light = sunlight(relative_place(back.drawn), back_surface);
         out.outputs.radiance =
             front.share * radiance(front_surface, front_light) + back.share * radiance(back_surface, back_light);
         light = front_light;
@@ -394,7 +401,7 @@ fn shade(target_position: vec4<f32>, is_terrain: bool) -> Shaded {
             out.center = back_surface;
         }
     } else {
-        light = sunlight(out.center);
+        light = sunlight(relative_place(all.drawn), out.center);
         out.outputs.radiance = all.share * radiance(out.center, light);
     }
     if center_depth > 0.0 {

@@ -1,7 +1,7 @@
 //! Radiance, shadow and albedo.
 
 use super::{flat, inner, lobed, look_at, look_down, nearest_hit, plain, ray, render, sphere};
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use opnav::geometry::Camera;
 use opnav::render::{RenderConfig, RenderedFrame, World};
 use opnav::scene::{BodySurface, GroundDetail, LunarWeight, Photometry, SmallBody, Terrain};
@@ -109,5 +109,37 @@ fn albedo_in_the_picture_is_that_of_the_terrain() {
         println!("{height_m} m: albedo off by {off:.1e}, another terrain's by {off_stranger:.1e}");
         assert!(off < 1e-3, "albedo off by {off} from {height_m} m");
         assert!(off_stranger > 0.02, "the test can tell one terrain from another");
+    }
+}
+
+/// Nothing shadows a sphere but itself: every pixel that faces the Sun is lit, however few there are.
+#[test]
+fn a_sphere_of_any_size_in_the_picture_is_lit_where_it_faces_the_sun() {
+    let body = SmallBody { mesh: sphere(160, |_| 100.0), surface: plain() };
+    let camera = Camera { center_px: Vector2::new(79.8, 80.1), ..Camera::from_fov(160, 160, 0.3) };
+    for (radius_px, least) in [(2.0, 8), (5.0, 50), (20.0, 1000), (60.0, 9000)] {
+        let eye = Vector3::new(100.0 * camera.focal_px.x / radius_px, 0.0, 0.0);
+        for sun in [Vector3::x(), Vector3::new(1.0, 0.6, 0.3)] {
+            let view = look_at(eye, Vector3::zeros(), Vector3::z(), sun);
+            let frame = render(World::Body(&body), &camera, &RenderConfig::default(), &view);
+            let pixels = (0..160).flat_map(|v| (0..160).map(move |u| (u, v)));
+            let (mut facing, mut dark) = (0, 0);
+            for (u, v) in pixels.filter(|(u, v)| frame.mask[frame.index(*u, *v)] & RenderedFrame::BODY != 0) {
+                let direction = ray(&camera, &view, u, v).normalize();
+                let along = -eye.dot(&direction);
+                let below = (along * along - eye.norm_squared() + 1e4).max(0.0).sqrt();
+                let normal = (eye + direction * (along - below)).normalize();
+                if normal.dot(&view.sun_in_reference) > 0.3 {
+                    facing += 1;
+                    let lit = frame.mask[frame.index(u, v)] & RenderedFrame::LIT != 0;
+                    dark += usize::from(!lit || frame.radiance[frame.index(u, v)] < 0.02);
+                }
+            }
+            println!("{radius_px} px, Sun {:?}: {dark} of {facing} px dark", sun.as_slice());
+            assert!(
+                facing >= least / 2 && dark == 0,
+                "{radius_px} px: {dark} of {facing} px that face the Sun are dark"
+            );
+        }
     }
 }
