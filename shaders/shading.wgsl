@@ -188,22 +188,37 @@ fn body_surface(sample: vec4<f32>, relative: vec3<f32>, painted: f32) -> Surface
     return Surface(relative, smooth_normal, normalize(smooth_normal - tangent), clamped);
 }
 
-// Share of the Sun seen by a place on the drawn surface, 0 to 1. Texels are compared with the plane through the place, so that a slope does
-// not shadow itself (Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", GDC 2006); what the plane misses of a
-// curved surface is covered by a lift of a part of a texel.
-fn sunlight(place: vec3<f32>, surface: Surface) -> f32 {
-    let facing = dot(surface.smooth_normal, shading.sun.xyz);
-    let cosine = clamp(facing, 0.02, 1.0);
-    let lift_m = max(shading.shadow.x, shading.shadow.y) * (0.4 + 0.4 / max(cosine, 0.2));
-    let lifted = place + surface.smooth_normal * lift_m;
-    let at = (shading.shadow_from_relative * vec4(lifted, 1.0)).xyz;
+// The normal of the drawn mesh around a pixel's centre, from the samples beside it; the smooth one where they do not lie
+// on one slope.
+fn drawn_normal(center_at: vec2<u32>, smooth_normal: vec3<f32>) -> vec3<f32> {
+    let east = seen_between(center_at + vec2(1u, 0u), 0.0, FARTHEST);
+    let west = seen_between(center_at - vec2(1u, 0u), 0.0, FARTHEST);
+    let south = seen_between(center_at + vec2(0u, 1u), 0.0, FARTHEST);
+    let north = seen_between(center_at - vec2(0u, 1u), 0.0, FARTHEST);
+    if min(min(east.share, west.share), min(south.share, north.share)) < 1.0 {
+        return smooth_normal;
+    }
+    let across = cross(south.in_camera - north.in_camera, east.in_camera - west.in_camera);
+    let normal = normalize(relative_place(across));
+    return select(smooth_normal, normal, dot(normal, smooth_normal) > 0.3);
+}
+
+// Share of the Sun seen by a place on the drawn surface, 0 to 1. Texels are compared with the plane through the place, so
+// that a slope does not shadow itself (Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", GDC 2006). What the plane
+// misses of the mesh within a texel or two grows with the tangent of the incidence; blockers nearer than that throw no
+// shadow.
+fn sunlight(place: vec3<f32>, plane: vec3<f32>) -> f32 {
+    let cosine = clamp(dot(plane, shading.sun.xyz), 0.1, 1.0);
+    let tangent = sqrt(1.0 - cosine * cosine) / cosine;
+    let blind_m = max(shading.shadow.x, shading.shadow.y) * (0.5 + 0.5 * tangent);
+    let at = (shading.shadow_from_relative * vec4(place + shading.sun.xyz * blind_m, 1.0)).xyz;
     if any(at.xy < vec2(0.0)) || any(at.xy > vec2(1.0)) {
         return 1.0;
     }
     let m = transpose(shading.shadow_from_relative);
     let across = vec3(
-        dot(m[0].xyz, surface.smooth_normal) / dot(m[0].xyz, m[0].xyz),
-        dot(m[1].xyz, surface.smooth_normal) / dot(m[1].xyz, m[1].xyz),
+        dot(m[0].xyz, plane) / dot(m[0].xyz, m[0].xyz),
+        dot(m[1].xyz, plane) / dot(m[1].xyz, m[1].xyz),
         -cosine / length(m[2].xyz),
     );
     let size = vec2<f32>(textureDimensions(shadow_map));
@@ -375,7 +390,8 @@ struct Shaded {
 fn shade(target_position: vec4<f32>, is_terrain: bool) -> Shaded {
     let pixel = vec2<u32>(target_position.xy);
     var out: Shaded;
-    let center = seen_at_center(pixel * shading.counts.y + shading.counts.x / 2u);
+    let center_at = pixel * shading.counts.y + shading.counts.x / 2u;
+    let center = seen_at_center(center_at);
     let center_depth = select(0.0, center.in_camera.z, center.share > 0.0);
     out.outputs.depth = center_depth;
     let all = layer_of(pixel, 0.0, FARTHEST, is_terrain);
@@ -390,8 +406,8 @@ fn shade(target_position: vec4<f32>, is_terrain: bool) -> Shaded {
         let back = layer_of(pixel, middle, FARTHEST, is_terrain);
         let front_surface = surface_of(front, is_terrain);
         let back_surface = surface_of(back, is_terrain);
-        let front_light = sunlight(relative_place(front.drawn), front_surface);
-        let back_light = sunlight(relative_place(back.drawn), back_surface);
+        let front_light = sunlight(relative_place(front.drawn), front_surface.smooth_normal);
+        let back_light = sunlight(relative_place(back.drawn), back_surface.smooth_normal);
         out.outputs.radiance =
             front.share * radiance(front_surface, front_light) + back.share * radiance(back_surface, back_light);
         light = front_light;
@@ -401,7 +417,7 @@ fn shade(target_position: vec4<f32>, is_terrain: bool) -> Shaded {
             out.center = back_surface;
         }
     } else {
-        light = sunlight(relative_place(all.drawn), out.center);
+        light = sunlight(relative_place(all.drawn), drawn_normal(center_at, out.center.smooth_normal));
         out.outputs.radiance = all.share * radiance(out.center, light);
     }
     if center_depth > 0.0 {
