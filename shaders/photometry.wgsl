@@ -1,13 +1,16 @@
 // How a material scatters sunlight: the twin of src/scene/photometry, whose documentation gives the formulas.
 
 struct Photometry {
-    model: u32,                // LUNAR_LAMBERT, OREN_NAYAR or HAPKE
     asymmetry: f32,            // Hapke: xi of Henyey and Greenstein, negative scatters back
     opposition_amplitude: f32, // Hapke: B0
     opposition_width: f32,     // Hapke: h
+    unused: f32,
     lunar: vec4<f32>,          // lunar-Lambert: coefficients of 1, phase, phase^2, phase^3 (rad) of the weight L
     rough: vec4<f32>,          // Oren-Nayar: C1, C2; Hapke: chi, tangent of the roughness
 }
+
+// Which law the material follows; the others are not compiled.
+override MODEL: u32 = LUNAR_LAMBERT;
 
 const LUNAR_LAMBERT: u32 = 0u;
 const OREN_NAYAR: u32 = 1u;
@@ -94,9 +97,9 @@ fn reflectance(
     }
     let cos_i = clamp(sun_cosine, LEAST_COSINE, 1.0);
     let cos_e = clamp(dot(normal, to_camera), LEAST_COSINE, 1.0);
-    if material.model == OREN_NAYAR || material.model == HAPKE {
+    if MODEL == OREN_NAYAR || MODEL == HAPKE {
         let half_tangent = half_azimuth_tangent(normal, to_sun, to_camera);
-        if material.model == HAPKE {
+        if MODEL == HAPKE {
             let effective = effective_cosines(material, cos_i, cos_e, half_tangent);
             return hapke(material, albedo, effective, to_sun, to_camera);
         }

@@ -14,6 +14,7 @@ pub(super) struct BodyGeometry {
     mesh: Mesh,
     center_m: Vector3<f64>,
     radius_m: f64,
+    bounding_box_m: [Vector3<f64>; 2],
     pipelines: GeometryPipelines,
     uniforms: [(wgpu::Buffer, wgpu::BindGroup); 2],
     vertices: wgpu::Buffer,
@@ -41,6 +42,7 @@ impl BodyGeometry {
         let faces = faces.as_ref().unwrap_or(&mesh.faces);
         Ok(BodyGeometry {
             center_m,
+            bounding_box_m: mesh.bounding_box(),
             radius_m: radius_m.max(1e-6),
             pipelines,
             uniforms,
@@ -53,6 +55,12 @@ impl BodyGeometry {
     /// Centre (asteroid frame) and radius in m of a sphere around the body.
     pub(super) fn bounding_sphere(&self) -> (Vector3<f64>, f64) {
         (self.center_m, self.radius_m)
+    }
+
+    /// Corners (asteroid frame) in m of a box around the body.
+    pub(super) fn box_corners_m(&self) -> [Vector3<f64>; 8] {
+        let sides = self.bounding_box_m;
+        std::array::from_fn(|k| Vector3::from_fn(|axis, _| sides[k >> axis & 1][axis]))
     }
 
     pub(super) fn check_view(&self, view: &View) -> Result<(), RenderError> {

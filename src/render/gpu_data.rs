@@ -41,10 +41,10 @@ pub(super) struct Octave {
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct Photometry {
-    pub model: u32,
     pub asymmetry: f32,
     pub opposition_amplitude: f32,
     pub opposition_width: f32,
+    pub unused: f32,
     pub lunar: [f32; 4],
     pub rough: [f32; 4],
 }
@@ -138,7 +138,7 @@ mod tests {
         }
         assert_layout!(super::super::albedo_map::SOURCE, AlbedoMap, [origin, counts]);
         assert_layout!(terrain, Tile, [base, spacing, slot]);
-        assert_layout!(shading, Photometry, [model, asymmetry, opposition_amplitude, opposition_width, lunar, rough]);
+        assert_layout!(shading, Photometry, [asymmetry, opposition_amplitude, opposition_width, unused, lunar, rough]);
         assert_layout!(shading, Octave, [row_x, row_y, row_z, cell, fraction]);
         assert_layout!(
             shading,

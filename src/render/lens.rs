@@ -6,7 +6,8 @@
 use super::sample_grid::SampleGrid;
 use super::{Gpu, RenderError};
 use crate::geometry::{Camera, Distortion};
-use nalgebra::{Matrix2, Vector2, Vector4};
+use crate::scene::View;
+use nalgebra::{Matrix2, Point3, Vector2, Vector3, Vector4};
 use rayon::prelude::*;
 use wgpu::util::DeviceExt;
 
@@ -70,6 +71,26 @@ impl Lens {
     /// Whether the lens bends what is drawn.
     pub(super) fn is_distorting(&self) -> bool {
         self.raster_grid != self.grid
+    }
+
+    /// The rectangle [left, top, width, height] in px of the camera's picture that holds all the points (reference frame,
+    /// m) and what lies between them; the whole picture where the lens bends it or a point lies behind the camera.
+    pub(super) fn rectangle_px(&self, view: &View, points_m: &[Vector3<f64>]) -> [u32; 4] {
+        let (width, height) = self.grid.size_px;
+        let whole = [0, 0, width, height];
+        if self.is_distorting() {
+            return whole;
+        }
+        let pixel = |p: &Vector3<f64>| {
+            self.raster.project(&view.reference_from_camera.inverse_transform_point(&Point3::from(*p)).coords)
+        };
+        let Some(pixels) = points_m.iter().map(pixel).collect::<Option<Vec<_>>>() else { return whole };
+        // A pixel's samples reach half a pixel from its centre.
+        let low = pixels.iter().fold(Vector2::repeat(f64::INFINITY), |low, p| low.inf(p)).add_scalar(-0.5);
+        let high = pixels.iter().fold(Vector2::repeat(f64::NEG_INFINITY), |high, p| high.sup(p)).add_scalar(1.5);
+        let inside = |at: Vector2<f64>| [at.x.clamp(0.0, f64::from(width)), at.y.clamp(0.0, f64::from(height))];
+        let ([left, top], [right, bottom]) = (inside(low.map(f64::floor)), inside(high.map(f64::ceil)));
+        [left, top, right - left, bottom - top].map(|side| side as u32)
     }
 
     /// Focal lengths and principal point in samples of the pinhole picture.

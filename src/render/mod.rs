@@ -1,8 +1,9 @@
 //! Pictures of terrain and small bodies with pixel-exact truth: the only room that names `wgpu`.
 //!
-//! A picture takes four passes: a shadow map from the Sun, surface samples at pixel centres (the truth), surface samples
-//! 2×2 a pixel (the picture), and one full-screen pass that shades them with detail finer than the mesh. Each shader in
-//! `shaders/` has the name of the file here that drives it. Positions reach the adapter relative to the camera,
+//! A picture takes three passes: a shadow map from the Sun, surface samples, several a pixel and one of them at its centre,
+//! and one pass that shades each pixel by them with detail finer than the mesh. The truth is what the centre's sample
+//! shows. A lens with distortion looks its samples up in a pinhole picture. Each shader in `shaders/` has the name of the
+//! file here that drives it. Positions reach the adapter relative to the camera,
 //! subtracted in f64 or in two f32 steps that lose nothing.
 //!
 //! What a shutter collects over time is a mean of such pictures ([`Renderer::expose`]); a [`Detector`] makes digital
@@ -10,6 +11,8 @@
 
 mod albedo_map;
 mod body_geometry;
+#[cfg(test)]
+mod compute_twin;
 mod enclosure;
 mod error;
 mod exposure;

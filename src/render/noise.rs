@@ -42,12 +42,10 @@ fn octave_relative_to(octave: &NoiseOctave, camera_in_reference_m: &Vector3<f64>
 mod tests {
     use super::*;
     use crate::render::Gpu;
-    use crate::render::geometry_pass::buffer;
-    use crate::render::read_back::fetch_buffer;
+    use crate::render::compute_twin::Twin;
     use crate::scene::OctaveStrength;
     use crate::stats::random_stream;
     use rand::RngExt;
-    use wgpu::util::DeviceExt;
 
     const TWIN: &str = concat!(
         include_str!("../../shaders/noise.wgsl"),
@@ -67,40 +65,14 @@ mod tests {
     );
 
     fn on_adapter(gpu: &Gpu, table: &[Octave; OCTAVES], places: &[[f32; 4]]) -> Vec<[f32; 4]> {
-        let device = &gpu.device;
-        let upload = |contents: &[u8]| {
-            let usage = wgpu::BufferUsages::STORAGE;
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents, usage })
+        let twin = Twin {
+            source: TWIN,
+            constants: &[],
+            inputs: &[bytemuck::cast_slice(table), bytemuck::cast_slice(places)],
+            result_bytes: 32 * places.len(),
+            invocations: places.len(),
         };
-        let results = buffer(gpu, 32 * places.len() as u64, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
-        let buffers = [upload(bytemuck::cast_slice(table)), upload(bytemuck::cast_slice(places)), results];
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: None,
-            source: wgpu::ShaderSource::Wgsl(TWIN.into()),
-        });
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: None,
-            layout: None,
-            module: &module,
-            entry_point: None,
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
-        });
-        let entries: Vec<_> = (0..)
-            .zip(&buffers)
-            .map(|(binding, b)| wgpu::BindGroupEntry { binding, resource: b.as_entire_binding() })
-            .collect();
-        let layout = pipeline.get_bind_group_layout(0);
-        let group =
-            device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &layout, entries: &entries });
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            pass.dispatch_workgroups(places.len() as u32 / 64, 1, 1);
-        }
-        bytemuck::pod_collect_to_vec(&fetch_buffer(gpu, encoder, &buffers[2]))
+        bytemuck::pod_collect_to_vec(&twin.run(gpu))
     }
 
     /// Largest difference between the adapter's noise and the CPU's around a camera, of the solid noise alone (1 function)

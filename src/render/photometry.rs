@@ -8,6 +8,15 @@ const LUNAR_LAMBERT: u32 = 0;
 const OREN_NAYAR: u32 = 1;
 const HAPKE: u32 = 2;
 
+/// The law that a material follows: `MODEL` of the shader.
+pub(super) fn photometry_model(photometry: &Photometry) -> u32 {
+    match photometry {
+        Photometry::Lambert | Photometry::LommelSeeliger | Photometry::LunarLambert { .. } => LUNAR_LAMBERT,
+        Photometry::OrenNayar { .. } => OREN_NAYAR,
+        Photometry::Hapke(_) => HAPKE,
+    }
+}
+
 /// The material's parameters. Lambert's and Lommel-Seeliger's laws are the ends of the lunar-Lambert law.
 pub(super) fn photometry_data(photometry: &Photometry) -> PhotometryData {
     match photometry {
@@ -16,20 +25,19 @@ pub(super) fn photometry_data(photometry: &Photometry) -> PhotometryData {
         Photometry::LunarLambert { weight } => lunar_lambert(weight),
         Photometry::OrenNayar { slope_sigma_deg } => {
             let [c1, c2] = oren_nayar_coefficients(slope_sigma_deg.to_radians());
-            PhotometryData { model: OREN_NAYAR, rough: [c1 as f32, c2 as f32, 0.0, 0.0], ..Zeroable::zeroed() }
+            PhotometryData { rough: [c1 as f32, c2 as f32, 0.0, 0.0], ..Zeroable::zeroed() }
         }
         Photometry::Hapke(parameters) => hapke(parameters),
     }
 }
 
 fn lunar_lambert(weight: &LunarWeight) -> PhotometryData {
-    PhotometryData { model: LUNAR_LAMBERT, lunar: weight.coefficients().map(|c| c as f32), ..Zeroable::zeroed() }
+    PhotometryData { lunar: weight.coefficients().map(|c| c as f32), ..Zeroable::zeroed() }
 }
 
 fn hapke(parameters: &HapkeParameters) -> PhotometryData {
     let (chi, tangent) = parameters.roughness_factors();
     PhotometryData {
-        model: HAPKE,
         asymmetry: parameters.asymmetry as f32,
         opposition_amplitude: parameters.opposition_amplitude as f32,
         opposition_width: parameters.opposition_width as f32,
@@ -42,11 +50,9 @@ fn hapke(parameters: &HapkeParameters) -> PhotometryData {
 mod tests {
     use super::*;
     use crate::render::Gpu;
-    use crate::render::geometry_pass::buffer;
-    use crate::render::read_back::fetch_buffer;
+    use crate::render::compute_twin::Twin;
     use crate::scene::PhotometricAngles;
     use nalgebra::Vector3;
-    use wgpu::util::DeviceExt;
 
     const TWIN: &str = concat!(
         include_str!("../../shaders/photometry.wgsl"),
@@ -81,41 +87,15 @@ mod tests {
         places
     }
 
-    fn on_adapter(gpu: &Gpu, material: &PhotometryData, places: &[[[f32; 4]; 2]]) -> Vec<f32> {
-        let device = &gpu.device;
-        let upload = |contents: &[u8]| {
-            let usage = wgpu::BufferUsages::STORAGE;
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents, usage })
+    fn on_adapter(gpu: &Gpu, model: &Photometry, places: &[[[f32; 4]; 2]]) -> Vec<f32> {
+        let twin = Twin {
+            source: TWIN,
+            constants: &[("MODEL", f64::from(photometry_model(model)))],
+            inputs: &[bytemuck::bytes_of(&photometry_data(model)), bytemuck::cast_slice(places)],
+            result_bytes: 4 * places.len(),
+            invocations: places.len(),
         };
-        let results = buffer(gpu, 4 * places.len() as u64, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
-        let buffers = [upload(bytemuck::bytes_of(material)), upload(bytemuck::cast_slice(places)), results];
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: None,
-            source: wgpu::ShaderSource::Wgsl(TWIN.into()),
-        });
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: None,
-            layout: None,
-            module: &module,
-            entry_point: None,
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
-        });
-        let entries: Vec<_> = (0..)
-            .zip(&buffers)
-            .map(|(binding, b)| wgpu::BindGroupEntry { binding, resource: b.as_entire_binding() })
-            .collect();
-        let layout = pipeline.get_bind_group_layout(0);
-        let group =
-            device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &layout, entries: &entries });
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            pass.dispatch_workgroups((places.len() as u32).div_ceil(64), 1, 1);
-        }
-        bytemuck::pod_collect_to_vec(&fetch_buffer(gpu, encoder, &buffers[2]))
+        bytemuck::pod_collect_to_vec(&twin.run(gpu))
     }
 
     fn direction([x, y, z, _]: [f32; 4]) -> Vector3<f64> {
@@ -155,7 +135,7 @@ mod tests {
             Photometry::Hapke(smooth),
         ];
         for model in models {
-            let found = on_adapter(&gpu, &photometry_data(&model), &places);
+            let found = on_adapter(&gpu, &model, &places);
             let off = largest_difference(&places, &found, |albedo, angles| model.reflectance(albedo, angles));
             println!("{model:?}: {off:.1e}");
             assert!(off < 1e-3, "{model:?} differs by {off:.1e}");

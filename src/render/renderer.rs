@@ -1,9 +1,8 @@
 //! One picture: shadow map, samples, shading.
 
 use super::geometry_pass::Role;
-use super::gpu_data::Shading;
 use super::lens::Lens;
-use super::shading::{ShadingKind, ShadingPass};
+use super::shading::{ShadingJob, ShadingPass};
 use super::shadow::ShadowMap;
 use super::surface::Surface;
 use super::targets::SampleTarget;
@@ -46,8 +45,8 @@ impl Renderer {
         let shadow_map = ShadowMap::new(gpu, config.shadow_map_px.min(gpu.device.limits().max_texture_dimension_2d));
         let samples = SampleTarget::new(gpu, lens.raster_grid.size().expect("the lens has checked its size"));
         let surface = Surface::new(gpu, world)?;
-        let kind = ShadingKind { entry: surface.shading_entry(), surface_truth: config.surface_truth };
-        let shading = ShadingPass::new(gpu, &kind, &lens, (&samples, &shadow_map));
+        let shading =
+            ShadingPass::new(gpu, &surface.shading_kind(config.surface_truth), &lens, (&samples, &shadow_map));
         Ok(Renderer { gpu: gpu.clone(), camera: *camera, config: *config, surface, shadow_map, lens, samples, shading })
     }
 
@@ -62,9 +61,9 @@ impl Renderer {
     /// [`RenderError`] if the view cannot be a picture (camera inside the body or below the ground, Sun below the
     /// horizon), or if the adapter fails.
     pub fn render(&mut self, view: &View) -> Result<RenderedFrame, RenderError> {
-        let shading = self.prepare(view)?;
+        let job = self.prepare(view)?;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        Stage::ALL.iter().for_each(|stage| self.record(*stage, &shading, &mut encoder));
+        Stage::ALL.iter().for_each(|stage| self.record(*stage, &job, &mut encoder));
         self.gpu.queue.submit([encoder.finish()]);
         self.shading.fetch(&self.gpu)
     }
@@ -74,31 +73,33 @@ impl Renderer {
     /// # Errors
     /// As [`Renderer::render`].
     pub fn render_timed(&mut self, view: &View) -> Result<(RenderedFrame, Vec<StageTime>), RenderError> {
-        let (shading, prepared) = StageTime::measure("prepare", || self.prepare(view));
-        let (shading, mut times) = (shading?, vec![prepared]);
+        let (job, prepared) = StageTime::measure("prepare", || self.prepare(view));
+        let (job, mut times) = (job?, vec![prepared]);
         for stage in Stage::ALL {
-            times.push(submit_timed(&self.gpu, stage.name(), |encoder| self.record(stage, &shading, encoder))?);
+            times.push(submit_timed(&self.gpu, stage.name(), |encoder| self.record(stage, &job, encoder))?);
         }
         let (frame, fetched) = StageTime::measure("read back", || self.shading.fetch(&self.gpu));
         times.push(fetched);
         Ok((frame?, times))
     }
 
-    fn prepare(&mut self, view: &View) -> Result<Shading, RenderError> {
+    fn prepare(&mut self, view: &View) -> Result<ShadingJob, RenderError> {
         let pose = &view.reference_from_camera;
         let numbers =
             pose.translation.vector.iter().chain(pose.rotation.coords.iter()).chain(view.sun_in_reference.iter());
         if !numbers.copied().all(f64::is_finite) {
             return Err(RenderError::ViewNotFinite { t_ns: view.t_ns });
         }
-        self.surface.prepare(&self.gpu, view, (&self.camera, &self.config), (&self.lens, &self.shadow_map))
+        let inputs = (&self.lens, &self.shadow_map);
+        let numbers = self.surface.prepare(&self.gpu, view, (&self.camera, &self.config), inputs)?;
+        Ok(ShadingJob { numbers, rectangle_px: self.surface.rectangle_px(view, &self.lens) })
     }
 
-    fn record(&self, stage: Stage, shading: &Shading, encoder: &mut wgpu::CommandEncoder) {
+    fn record(&self, stage: Stage, job: &ShadingJob, encoder: &mut wgpu::CommandEncoder) {
         match stage {
             Stage::Shadows => self.surface.draw(&mut self.shadow_map.begin(encoder), Role::Shadow),
             Stage::Samples => self.surface.draw(&mut self.samples.begin(encoder), Role::Picture),
-            Stage::Shading => self.shading.record(&self.gpu, encoder, shading),
+            Stage::Shading => self.shading.record(&self.gpu, encoder, job),
         }
     }
 }

@@ -9,10 +9,12 @@ use super::targets::{SampleTarget, cleared, texture};
 use super::{Gpu, RenderError, RenderedFrame};
 use wgpu::TextureFormat::{R8Uint, R32Float, Rgba32Float};
 
-/// The shader with the noise and the photometry that it calls.
+/// The shader with all that it calls.
 pub(super) const SOURCE: &str = concat!(
     include_str!("../../shaders/noise.wgsl"),
     include_str!("../../shaders/photometry.wgsl"),
+    include_str!("../../shaders/lens.wgsl"),
+    include_str!("../../shaders/shadow.wgsl"),
     include_str!("../../shaders/shading.wgsl")
 );
 
@@ -22,8 +24,10 @@ const FORMATS: [(wgpu::TextureFormat, u32); 4] = [(R32Float, 4), (R32Float, 4), 
 /// Which of the shader's variants is used.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ShadingKind {
-    /// Entry point: `terrain` or `body`.
-    pub entry: &'static str,
+    /// Whether the surface is terrain, or a body.
+    pub is_terrain: bool,
+    /// The law of its photometry.
+    pub photometry_model: u32,
     /// Whether normal and albedo are output too.
     pub surface_truth: bool,
 }
@@ -32,6 +36,14 @@ impl ShadingKind {
     fn formats(&self) -> &'static [(wgpu::TextureFormat, u32)] {
         &FORMATS[..if self.surface_truth { 4 } else { 3 }]
     }
+}
+
+/// What to shade.
+#[derive(Debug)]
+pub(super) struct ShadingJob {
+    pub numbers: Shading,
+    /// [left, top, width, height] in px; nothing is hit outside.
+    pub rectangle_px: [u32; 4],
 }
 
 #[derive(Debug)]
@@ -72,8 +84,8 @@ impl ShadingPass {
         ShadingPass { pipeline: pipeline(gpu, &layout, kind, lens.is_distorting()), uniform, group, outputs, size_px }
     }
 
-    pub(super) fn record(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, shading: &Shading) {
-        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(shading));
+    pub(super) fn record(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, job: &ShadingJob) {
+        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&job.numbers));
         let views: Vec<_> =
             self.outputs.iter().map(|(t, _)| t.create_view(&wgpu::TextureViewDescriptor::default())).collect();
         let attachments: Vec<_> = views.iter().map(|v| Some(cleared(v))).collect();
@@ -85,7 +97,11 @@ impl ShadingPass {
             });
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &self.group, &[]);
-            pass.draw(0..3, 0..1);
+            let [left, top, width, height] = job.rectangle_px;
+            if width > 0 && height > 0 {
+                pass.set_scissor_rect(left, top, width, height);
+                pass.draw(0..3, 0..1);
+            }
         }
         for (texture, read_back) in &self.outputs {
             read_back.copy_from(encoder, texture);
@@ -141,8 +157,12 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, kind: &ShadingKind, disto
         immediate_size: 0,
     });
     let targets: Vec<_> = kind.formats().iter().map(|(f, _)| Some(wgpu::ColorTargetState::from(*f))).collect();
-    let entry = if kind.surface_truth { format!("{}_with_surface", kind.entry) } else { kind.entry.into() };
-    let constants = [("LENS", f64::from(u8::from(distorting)))];
+    let entry = if kind.surface_truth { "picture_with_surface" } else { "picture" };
+    let constants = [
+        ("LENS", f64::from(u8::from(distorting))),
+        ("TERRAIN", f64::from(u8::from(kind.is_terrain))),
+        ("MODEL", f64::from(kind.photometry_model)),
+    ];
     let compilation_options = wgpu::PipelineCompilationOptions::default;
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("shading"),
@@ -158,7 +178,7 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, kind: &ShadingKind, disto
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module: &module,
-            entry_point: Some(&entry),
+            entry_point: Some(entry),
             compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..compilation_options() },
             targets: &targets,
         }),

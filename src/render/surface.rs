@@ -5,7 +5,8 @@ use super::geometry_pass::Role;
 use super::gpu_data::{Geometry, Shading, columns, dropped, four};
 use super::lens::Lens;
 use super::noise::octave_table;
-use super::photometry::photometry_data;
+use super::photometry::{photometry_data, photometry_model};
+use super::shading::ShadingKind;
 use super::shadow::{ShadowBox, ShadowMap, shadow_axes, texture_from_clip};
 use super::terrain_geometry::TerrainGeometry;
 use super::terrain_levels::LevelRange;
@@ -65,11 +66,10 @@ impl Surface {
         })
     }
 
-    pub(super) fn shading_entry(&self) -> &'static str {
-        match self.kind {
-            Kind::Terrain(_) => "terrain",
-            Kind::Body(_) => "body",
-        }
+    /// The variant of the shader that shades it.
+    pub(super) fn shading_kind(&self, surface_truth: bool) -> ShadingKind {
+        let is_terrain = matches!(self.kind, Kind::Terrain(_));
+        ShadingKind { is_terrain, photometry_model: photometry_model(&self.photometry), surface_truth }
     }
 
     /// Checks the view, uploads its geometry, and returns what shading needs.
@@ -100,13 +100,21 @@ impl Surface {
             sun: four(&view.sun_in_reference, self.sky_light),
             focal: [camera.focal_px.x, camera.focal_px.y, 0.0, 0.0].map(|v| v as f32),
             raster: lens.raster_intrinsics().map(|v| v as f32).into(),
-            surface: [self.mean_albedo, 0.0, self.detail_slope, 0.0].map(|v| v as f32),
+            surface: [self.mean_albedo, self.detail_slope, 0.0, 0.0].map(|v| v as f32),
             shadow: four(&texel_m, view.sun_angular_radius_rad.tan()),
             level: placement.level(),
             counts: [lens.grid.taps(), lens.grid.stride, count, 0],
             photometry: photometry_data(&self.photometry),
             octaves,
         })
+    }
+
+    /// The rectangle [left, top, width, height] in px outside of which there is no surface.
+    pub(super) fn rectangle_px(&self, view: &View, lens: &Lens) -> [u32; 4] {
+        match &self.kind {
+            Kind::Terrain(_) => [0, 0, lens.grid.size_px.0, lens.grid.size_px.1],
+            Kind::Body(body) => lens.rectangle_px(view, &body.box_corners_m()),
+        }
     }
 
     fn set_geometry(&self, gpu: &Gpu, role: Role, geometry: &Geometry) {

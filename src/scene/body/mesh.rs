@@ -54,10 +54,16 @@ impl Mesh {
         self.vertices_m.iter().map(|v| v.norm()).fold(0.0, f64::max)
     }
 
-    /// Centre and radius in m of a sphere around the mesh: about the middle of its bounding box.
-    pub fn bounding_sphere(&self) -> (Vector3<f64>, f64) {
+    /// Least and greatest coordinates in m.
+    pub fn bounding_box(&self) -> [Vector3<f64>; 2] {
         let low = self.vertices_m.iter().fold(Vector3::repeat(f64::INFINITY), |low, v| low.inf(v));
         let high = self.vertices_m.iter().fold(Vector3::repeat(f64::NEG_INFINITY), |high, v| high.sup(v));
+        [low, high]
+    }
+
+    /// Centre and radius in m of a sphere around the mesh: about the middle of its bounding box.
+    pub fn bounding_sphere(&self) -> (Vector3<f64>, f64) {
+        let [low, high] = self.bounding_box();
         let center_m = 0.5 * (low + high);
         (center_m, self.vertices_m.iter().map(|v| (v - center_m).norm()).fold(0.0, f64::max))
     }
