@@ -100,28 +100,51 @@ fn harris_blocks(picture: &GrayImage) -> std::collections::BTreeSet<(u32, u32)> 
     blocks_above(&responses, 0.01 * greatest(&responses))
 }
 
+fn parts(corners: &std::collections::BTreeSet<(u32, u32)>) -> usize {
+    corners.iter().map(|(u, v)| (u / 8, v / 8)).collect::<std::collections::BTreeSet<_>>().len()
+}
+
+fn seen_from_above(config: &TerrainConfig, place: [f64; 2], height_m: f64) -> GrayImage {
+    let terrain = Terrain::new(config, 1);
+    let camera = Camera::from_fov(512, 512, std::f64::consts::FRAC_PI_2);
+    detected(&render(
+        World::Terrain(&terrain),
+        &camera,
+        &RenderConfig::default(),
+        &look_down(&terrain, place, height_m),
+    ))
+}
+
 #[test]
 fn every_height_has_hundreds_of_spread_corners() {
-    let terrain = Terrain::new(&TerrainConfig::default(), 1);
-    let camera = Camera::from_fov(512, 512, std::f64::consts::FRAC_PI_2);
-    let mut renderer =
-        Renderer::new(&gpu(), World::Terrain(&terrain), &camera, &RenderConfig::default()).expect("ready");
-    // What the detector's noise alone makes of evenly lit ground; a share of the best corner would be set by one scarp.
-    let noise = greatest(&harris_responses(&detected(&lit_frame(512, |_, _| 0.1))));
     for (place, height_m) in [
         ([3300.0, 5870.0], 6570.0),
         ([995.0, 2453.0], 3030.0),
-        ([158.0, 527.0], 1254.0),
         ([6.0, 28.0], 225.0),
         ([0.0, 0.5], 21.0),
         ([0.0, 0.0], 5.0),
     ] {
-        let frame = renderer.render(&look_down(&terrain, place, height_m)).expect("a picture");
-        let corners = blocks_above(&harris_responses(&detected(&frame)), noise);
-        let spread: std::collections::BTreeSet<_> = corners.iter().map(|(u, v)| (u / 8, v / 8)).collect();
-        println!("{height_m} m: {} corners in {} of 64 parts", corners.len(), spread.len());
-        assert!(corners.len() > 400 && spread.len() > 55, "{height_m} m: {} in {} of 64", corners.len(), spread.len());
+        let corners = harris_blocks(&seen_from_above(&TerrainConfig::default(), place, height_m));
+        let spread = parts(&corners);
+        println!("{height_m} m: {} corners in {spread} of 64 parts", corners.len());
+        assert!(corners.len() > 400 && spread > 55, "{height_m} m: {} in {spread} of 64", corners.len());
     }
+}
+
+/// From here a scarp outshines all else, so that a share of the best corner would count little but its edge.
+#[test]
+fn ground_beside_a_scarp_has_hundreds_of_corners_far_above_noise() {
+    let noise = greatest(&harris_responses(&detected(&lit_frame(512, |_, _| 0.1))));
+    let found = |config: &TerrainConfig| {
+        let corners = blocks_above(&harris_responses(&seen_from_above(config, [158.0, 527.0], 1254.0)), 10.0 * noise);
+        (corners.len(), parts(&corners))
+    };
+    let (corners, spread) = found(&TerrainConfig::default());
+    let bland = TerrainConfig { albedo_contrast: 0.01, rms_slope: 0.01, ..TerrainConfig::default().without_features() };
+    let (bland_corners, _) = found(&bland);
+    println!("{corners} corners in {spread} of 64 parts, {bland_corners} on bland ground");
+    assert!(corners > 400 && spread > 55, "{corners} in {spread} of 64");
+    assert!(bland_corners < 100, "{bland_corners} corners on bland ground");
 }
 
 #[test]

@@ -37,7 +37,7 @@ struct Photograph {
 
 /// Frames 19 to 70 of the folder in `OPNAV_LCAM`; `None` without it.
 fn photographs() -> Option<Vec<Photograph>> {
-    let folder = std::env::var_os("OPNAV_LCAM").map_or("../shared/data/lcam".into(), PathBuf::from).join("cam0");
+    let folder = PathBuf::from(std::env::var_os("OPNAV_LCAM")?).join("cam0");
     let list = std::fs::read_to_string(folder.join("data.csv")).ok()?;
     let read = |(index, line): (usize, &str)| {
         let (t_ns, name) = line.split_once(',')?;
