@@ -88,10 +88,11 @@ mod tests {
     }
 
     fn on_adapter(gpu: &Gpu, model: &Photometry, places: &[[[f32; 4]; 2]]) -> Vec<f32> {
+        let numbers = photometry_data(model);
         let twin = Twin {
             source: TWIN,
             constants: &[("MODEL", f64::from(photometry_model(model)))],
-            inputs: &[bytemuck::bytes_of(&photometry_data(model)), bytemuck::cast_slice(places)],
+            inputs: &[bytemuck::bytes_of(&numbers), bytemuck::cast_slice(places)],
             result_bytes: 4 * places.len(),
             invocations: places.len(),
         };
