@@ -1,7 +1,8 @@
 //! **opnav**: optical navigation in deep space.
 //!
-//! Renders planetary descents and tumbling small bodies with pixel-exact truth, extracts and matches Harris features,
-//! recovers relative rotation, and navigates by them. Data flows one way, from a scenario to a report:
+//! Renders planetary descents, tumbling small bodies and linked spacecraft above a small body with pixel-exact truth,
+//! extracts and matches Harris features, recovers relative rotation, and navigates by them (linked spacecraft not yet).
+//! Data flows one way, from a scenario to a report:
 //!
 //! ```text
 //! scenario -> scene -> render -> dataset -> vision -> navigation -> evaluation -> report

@@ -67,10 +67,19 @@ fn wrong_usage_exits_with_2() {
 
 #[test]
 fn every_subcommand_explains_itself() {
-    for command in ["doctor", "demo", "render", "track", "land", "tumble", "evaluate", "report", "export"] {
+    for command in
+        ["doctor", "demo", "render", "track", "land", "tumble", "evaluate", "report", "bench", "export", "reference"]
+    {
         let output = opnav().args([command, "--help"]).assert().success().get_output().stdout.clone();
         assert!(String::from_utf8_lossy(&output).contains("Usage:"), "{command}");
     }
+}
+
+#[test]
+fn reference_prints_every_key() {
+    let committed = Path::new(env!("CARGO_MANIFEST_DIR")).join("datasets/REFERENCE.md");
+    let text = std::fs::read_to_string(committed).expect("the reference");
+    opnav().arg("reference").assert().success().stdout(text);
 }
 
 #[test]
@@ -144,6 +153,33 @@ fn a_folder_without_pictures_is_named() {
 #[test]
 fn a_folder_that_is_not_there_is_named() {
     assert_names(&tracking_error(Path::new("/nonexistent/pictures"), &[]), &["/nonexistent/pictures", "missing"]);
+}
+
+/// Mean grey level of the overlay that tracking draws over two textured pictures whose numbers fill `bits`; their camera
+/// file states `stated` bits.
+fn overlay_brightness(bits: u32, stated: &str) -> f64 {
+    let folder = TempDir::new().expect("a temporary folder");
+    let number = |x: u32, y: u32| (x / 9).wrapping_mul(2_654_435_761).wrapping_add((y / 9).wrapping_mul(40_503)) % 199;
+    for (name, shift) in [("a1.png", 0), ("a2.png", 3)] {
+        let deep = |x, y| Luma([((number(x + shift, y) + 40) * ((1 << bits) - 1) / 255) as u16]);
+        let picture = image::ImageBuffer::from_fn(192, 192, deep);
+        picture.save(folder.path().join(name)).expect("a picture is written");
+    }
+    let camera = "resolution: [192, 192]\nintrinsics: [180.0, 180.0, 95.5, 95.5]\ndistortion_model: none\n";
+    std::fs::write(folder.path().join("sensor.yaml"), format!("{camera}{stated}")).expect("a camera file is written");
+    let out = folder.path().join("result");
+    opnav().arg("track").arg(folder.path()).arg("--out").arg(&out).assert().success();
+    let overlays =
+        std::fs::read_dir(out.join("overlays")).expect("overlays").map(|entry| entry.expect("an entry").path());
+    let overlay = image::open(overlays.last().expect("an overlay")).expect("a picture").into_luma8();
+    overlay.pixels().map(|p| f64::from(p[0])).sum::<f64>() / f64::from(overlay.width() * overlay.height())
+}
+
+#[test]
+fn overlays_of_12_bit_pictures_are_as_bright_as_those_of_16_bits() {
+    let deep = overlay_brightness(16, "");
+    assert!((overlay_brightness(12, "bits: 12\n") - deep).abs() < 2.0, "{deep}");
+    assert!(overlay_brightness(12, "") < 0.3 * deep, "bits that are not stated cannot be told");
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Tests of the room `report`.
 
+mod reference;
+
 use image::{GrayImage, Luma};
 use opnav::evaluation::{Metrics, Mission, Series, Verdict};
 use opnav::report::*;

@@ -8,6 +8,7 @@ mod evaluate;
 mod export;
 mod land;
 mod progress;
+mod reference;
 mod render;
 mod report;
 mod run;

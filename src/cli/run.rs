@@ -1,7 +1,7 @@
 //! The command line as a whole: which subcommand, how errors end.
 
 use super::progress::Terminal;
-use super::{bench, demo, doctor, evaluate, export, land, render, report, track, tumble};
+use super::{bench, demo, doctor, evaluate, export, land, reference, render, report, track, tumble};
 use clap::{Parser, Subcommand};
 use opnav::pipeline::PipelineError;
 use std::process::ExitCode;
@@ -29,6 +29,7 @@ enum Command {
     Report(report::Arguments),
     Bench(bench::Arguments),
     Export(export::Arguments),
+    Reference(reference::Arguments),
 }
 
 /// Parses the command line and runs it: exit 0 done, 1 could not do it, 2 wrong usage.
@@ -56,6 +57,7 @@ fn dispatch(command: Command, terminal: &Terminal) -> Result<ExitCode, PipelineE
         Command::Report(arguments) => report::run(&arguments, terminal)?,
         Command::Bench(arguments) => bench::run(&arguments, terminal)?,
         Command::Export(arguments) => export::run(&arguments, terminal)?,
+        Command::Reference(arguments) => reference::run(&arguments),
     }
     Ok(ExitCode::SUCCESS)
 }

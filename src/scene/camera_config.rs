@@ -3,46 +3,49 @@
 use super::{SceneError, limits};
 use crate::geometry::{Camera, CameraError, Distortion};
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A camera: resolution, focal length, principal point, lens distortion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraConfig {
-    /// Picture width in px (default 1024).
+    /// Picture width in px, 16 to 16384 (default 1024).
     pub width_px: u32,
-    /// Picture height in px (default 1024).
+    /// Picture height in px, 16 to 16384 (default 1024).
     pub height_px: u32,
-    /// Horizontal field of view in degrees of square pixels around a centred principal point, without distortion
-    /// (default 90 for a descent, 30 for a tumbling body). It gives the focal length where `focal_px` does not.
+    /// Horizontal field of view in degrees of square pixels around a centred principal point, without distortion, 0.01
+    /// to 170 (default 90 for a descent, 30 for a tumbling body and an attachment). It gives the focal length where
+    /// `focal_px` does not.
     pub fov_deg: f64,
-    /// Focal lengths along u and v in px, instead of `fov_deg` (default: from `fov_deg`).
+    /// Focal lengths along u and v in px, instead of `fov_deg`, 1 to 1e8 (default: from `fov_deg`).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub focal_px: Option<[f64; 2]>,
-    /// Principal point (u, v) in px, pixel centres at integers (default: the middle of the picture).
+    /// Principal point (u, v) in px, pixel centres at integers, -100000 to 100000 (default: the middle of the picture).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center_px: Option<[f64; 2]>,
     /// Lens distortion (default none).
     pub distortion: DistortionConfig,
-    /// Rotation vector in degrees that turns the camera away from the mission's nominal direction, in the nominal camera's
-    /// axes: x right, y down, z forward (default 0, 0, 0).
+    /// Rotation vector in degrees that turns the camera away from the mission's nominal direction, in the nominal
+    /// camera's axes: x right, y down, z forward, -180 to 180 (default 0, 0, 0).
     pub turn_deg: [f64; 3],
-    /// Place of the camera less that of the mission's nominal camera, in spacecraft axes, m (default 0, 0, 0).
+    /// Place of the camera less that of the mission's nominal camera, in spacecraft axes, m, -100 to 100 (default 0, 0,
+    /// 0).
     pub offset_m: [f64; 3],
 }
 
 /// Lens distortion with OpenCV's coefficients.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DistortionConfig {
     /// The model (default `none`).
     pub model: DistortionModel,
-    /// `[k1, k2, p1, p2]` of `radial-tangential`, `[k1, k2, k3, k4]` of `equidistant` (default zeros).
+    /// `[k1, k2, p1, p2]` of `radial-tangential`, `[k1, k2, k3, k4]` of `equidistant` (default 0, 0, 0, 0).
     pub coefficients: [f64; 4],
 }
 
 /// Model of lens distortion; see [`Distortion`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DistortionModel {
     /// A pinhole camera.

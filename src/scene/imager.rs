@@ -4,13 +4,16 @@ use super::{CameraConfig, SceneError, SensorConfig, View};
 use crate::dataset::{CameraId, CameraSensor};
 use crate::geometry::{Camera, so3};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use schemars::JsonSchema;
 
 /// A camera of a scenario with its detector: the tables `[camera]` and `[sensor]`, or one entry of `[[cameras]]`.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, JsonSchema)]
 pub struct ImagerConfig {
     /// The camera.
+    #[schemars(flatten)]
     pub camera: CameraConfig,
-    /// The detector.
+    /// The detector, instead of the table `[sensor]` (default: that table).
+    #[schemars(with = "Option<SensorConfig>")]
     pub sensor: SensorConfig,
 }
 

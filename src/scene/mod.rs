@@ -1,9 +1,10 @@
 //! What exists, on the CPU in f64: scenario, terrain, bodies, motion, IMU.
 //!
-//! A [`Scenario`] is read from a TOML file and builds a [`Scene`]: either a [`DescentScene`] (ground, a lander on its
-//! path, inertial measurements) or a [`TumblingScene`] (a small body and its motion). Both list the [`View`]s to take a
-//! picture of and carry their exact truth. Every setting has a documented default, its unit in its name, and one
-//! `validate()`; unknown keys are refused.
+//! A [`Scenario`] is read from a TOML file and builds a [`Scene`]: a [`DescentScene`] (ground, a lander on its path,
+//! inertial measurements), a [`TumblingScene`] (a small body and its motion) or an [`AttachmentScene`] (linked spacecraft
+//! above a site of a small body). Each lists the [`View`]s to take a picture of and carries its exact truth. Every setting
+//! has a documented default, its unit in its name, and one `validate()`; unknown keys are refused. `datasets/REFERENCE.md`
+//! lists them all, made from the types' documentation ([`Scenario::schema`]).
 
 mod attachment;
 mod body;

@@ -1,10 +1,11 @@
 //! How finely pictures are drawn.
 
 use super::{SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How finely pictures are drawn: the table `[render]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RenderConfig {
     /// Samples a pixel and axis, 1 to 8 (default 2, which is four samples a pixel).

@@ -52,6 +52,11 @@ impl Scenario {
         ScenarioFile::from(self).to_toml()
     }
 
+    /// The JSON schema of a scenario file; descriptions come from the documentation of the types.
+    pub fn schema() -> serde_json::Value {
+        ScenarioFile::schema()
+    }
+
     /// Checks every setting's range.
     ///
     /// # Errors

@@ -4,6 +4,7 @@ use super::{
     AttachmentConfig, CameraConfig, DescentConfig, DistortionConfig, ImagerConfig, Mission, RenderConfig, Scenario,
     SceneError, SensorConfig, TruthConfig, TumblingConfig,
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use toml::{Table, Value};
@@ -11,26 +12,37 @@ use toml::{Table, Value};
 const DESCENT_FOV_DEG: f64 = 90.0;
 const BODY_FOV_DEG: f64 = 30.0;
 
-/// A scenario as it stands in a file.
-#[derive(Debug, Serialize, Deserialize)]
+/// A scenario as it stands in a file. It has one of the tables `[descent]`, `[tumbling]` and `[attachment]`.
+#[derive(Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ScenarioFile {
+    /// Seed of everything random, 0 to 2⁶³-1 (default 1).
     #[serde(default = "first_seed")]
     seed: u64,
+    /// The only camera of each spacecraft.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<ImagerConfig>")]
     camera: Option<CameraTable>,
+    /// Several cameras of each spacecraft, instead of `[camera]`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(with = "Vec<ImagerConfig>")]
+    cameras: Vec<CameraTable>,
+    /// The detector of every camera that has none of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     sensor: Option<SensorConfig>,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    cameras: Vec<CameraTable>,
+    /// The truth to write beside the pictures.
     #[serde(default)]
     truth: TruthConfig,
+    /// How finely the pictures are drawn.
     #[serde(default)]
     render: RenderConfig,
+    /// A powered descent to a landing site.
     #[serde(skip_serializing_if = "Option::is_none")]
     descent: Option<DescentConfig>,
+    /// A body that tumbles in front of a camera.
     #[serde(skip_serializing_if = "Option::is_none")]
     tumbling: Option<TumblingConfig>,
+    /// Linked spacecraft that descend together to a site on a small body.
     #[serde(skip_serializing_if = "Option::is_none")]
     attachment: Option<AttachmentConfig>,
 }
@@ -152,6 +164,11 @@ impl ScenarioFile {
             render: self.render,
             mission,
         })
+    }
+
+    /// The JSON schema of the file.
+    pub fn schema() -> serde_json::Value {
+        schemars::schema_for!(ScenarioFile).to_value()
     }
 
     /// The text of the file.

@@ -1,6 +1,7 @@
 //! Parameters of procedural terrain.
 
 use super::Photometry;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -17,72 +18,72 @@ pub struct TerrainConfigError {
 }
 
 /// Procedural terrain around the landing point.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TerrainConfig {
-    /// Largest wavelength of the fractal relief in m (default 6000).
+    /// Largest wavelength of the fractal relief in m, 1 to 100000 (default 6000).
     pub largest_wavelength_m: f64,
-    /// Smallest wavelength of the fractal relief in m (default 0.02).
+    /// Smallest wavelength of the fractal relief in m, 0.001 to 1000 (default 0.02).
     pub smallest_wavelength_m: f64,
     /// Hurst exponent of the relief, 0 to 1 (default 0.8).
     pub hurst: f64,
-    /// R.m.s. slope of the relief of all wavelengths down to `slope_scale_m`, rise over run (default 0.075).
+    /// R.m.s. slope of the relief of all wavelengths down to `slope_scale_m`, rise over run, 0 to 1 (default 0.075).
     pub rms_slope: f64,
-    /// Wavelength in m that `rms_slope` is stated at (default 1).
+    /// Wavelength in m that `rms_slope` is stated at, 0.001 to 100000 (default 1).
     pub slope_scale_m: f64,
     /// Mean albedo, 0 to 1 (default 0.2).
     pub albedo: f64,
     /// How the ground scatters sunlight (default lunar-Lambert with weight 0.6).
     pub photometry: Photometry,
-    /// Radiance of the sky over that of a sunlit white surface (default 0.15, a hazy Martian sky).
+    /// Radiance of the sky over that of a sunlit white surface, 0 to 1 (default 0.15, a hazy Martian sky).
     pub sky_light: f64,
-    /// Relative r.m.s. variation of the albedo, per octave (default 0.03); less at wavelengths of
-    /// kilometres.
+    /// Relative r.m.s. variation of the albedo, per octave, 0 to 0.3 (default 0.03); less at wavelengths of kilometres.
     pub albedo_contrast: f64,
     /// Probability of each crater that a cell of the crater grid can hold, for the smallest craters, 0 (none) to 1 (default
     /// 0.45).
     pub crater_density: f64,
-    /// Smallest crater diameter in m (default 0.3).
+    /// Smallest crater diameter in m, 0.01 to 10000 (default 0.3).
     pub smallest_crater_m: f64,
-    /// Largest crater diameter in m (default 800).
+    /// Largest crater diameter in m, 0.01 to 10000 (default 800).
     pub largest_crater_m: f64,
-    /// Exponent b of the number of craters larger than a diameter, N(>D) ~ D^-b (default 1.85).
+    /// Exponent b of the number of craters larger than a diameter, N(>D) ~ D^-b, 0.5 to 5 (default 1.85).
     pub crater_exponent: f64,
-    /// Depth over diameter of a fresh crater (default 0.2).
+    /// Depth over diameter of a fresh crater, 0 to 0.4 (default 0.2).
     pub crater_depth_ratio: f64,
     /// Total abundance k of rocks: the share of the ground that rocks of all sizes cover by Golombek's law, 0 (none) to
     /// 0.4 (default 0.05).
     pub rock_abundance: f64,
-    /// Smallest rock in m (default 0.06).
+    /// Smallest rock in m, 0.01 to 100 (default 0.06).
     pub smallest_rock_m: f64,
-    /// Largest rock in m (default 4).
+    /// Largest rock in m, 0.01 to 100 (default 4).
     pub largest_rock_m: f64,
     /// Mean probability of each hummock that a cell of the hummock grid can hold, 0 (none) to 1 (default 0.5); they crowd in
     /// patches.
     pub hummock_density: f64,
-    /// Smallest hummock in m (default 2).
+    /// Smallest hummock in m, 0.1 to 10000 (default 2).
     pub smallest_hummock_m: f64,
-    /// Largest hummock in m (default 256).
+    /// Largest hummock in m, 0.1 to 10000 (default 256).
     pub largest_hummock_m: f64,
-    /// Height of the highest hummocks over their diameter (default 0.08).
+    /// Height of the highest hummocks over their diameter, 0 to 0.3 (default 0.08).
     pub hummock_height_ratio: f64,
     /// Share of the ground under ripples of each size, 0 (none) to 1 (default 0.3).
     pub ripple_cover: f64,
-    /// Largest distance between crests of ripples in m (default 28).
+    /// Largest distance between crests of ripples in m, 0.05 to 1000 (default 28).
     pub largest_ripple_m: f64,
-    /// Smallest distance between crests of ripples in m (default 0.5).
+    /// Smallest distance between crests of ripples in m, 0.05 to 1000 (default 0.5).
     pub smallest_ripple_m: f64,
-    /// Height of ripples over the distance between crests (default 0.07).
+    /// Height of ripples over the distance between crests, 0 to 0.15 (default 0.07).
     pub ripple_height_ratio: f64,
-    /// Relative difference of the albedo between geological units (default 0.51).
+    /// Relative difference of the albedo between geological units, 0 to 1 (default 0.51).
     pub unit_contrast: f64,
-    /// Wavelength in m of the largest pattern of geological units (default 3500).
+    /// Wavelength in m of the largest pattern of geological units, 1 to 100000 (default 3500).
     pub largest_unit_m: f64,
-    /// Wavelength in m of the smallest pattern of geological units (default 10).
+    /// Wavelength in m of the smallest pattern of geological units, 1 to 100000 (default 10).
     pub smallest_unit_m: f64,
-    /// Height of the scarp at the edge of a unit over the wavelength of its pattern (default 0.007).
+    /// Height of the scarp at the edge of a unit over the wavelength of its pattern, 0 to 0.05 (default 0.007).
     pub scarp_ratio: f64,
-    /// No crater is deeper, no rock, hummock, ripple or scarp higher than this times its distance from the landing point (default 0.05).
+    /// No crater is deeper, no rock, hummock, ripple or scarp higher than this times its distance from the landing
+    /// point, 0 to 1 (default 0.05).
     pub site_slope: f64,
 }
 

@@ -1,9 +1,10 @@
 //! Which truth a data set holds beside its pictures.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Truth for each pixel that is written on request; depth and mask are always there.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TruthConfig {
     /// Unit normals of the surface in reference axes, detail finer than the mesh included (default false).

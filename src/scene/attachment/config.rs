@@ -2,19 +2,20 @@
 
 use super::{ApproachConfig, BodyConfig, FlexConfig, NodeErrorConfig, NodeImuConfig};
 use crate::scene::{SceneError, SunConfig, TerrainConfig, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Linked spacecraft that descend together to a site on a small body.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AttachmentConfig {
-    /// Places of the spacecraft in the formation, in site axes from its centre, m (default: three at the corners of an
-    /// equilateral triangle with sides of 1.299 m).
+    /// Places of the spacecraft in the formation, in site axes from its centre, m; one to 1000 (default: three at the
+    /// corners of an equilateral triangle with sides of 1.299 m).
     pub nodes_m: Vec<[f64; 3]>,
-    /// Time between pictures in s (default 30), all nodes at once, the first at t = 0; a multiple of the inertial
-    /// measurement units' interval.
+    /// Time between pictures in s, 0.001 to 1e6 (default 30), all nodes at once, the first at t = 0; a multiple of the
+    /// inertial measurement units' interval.
     pub picture_interval_s: f64,
-    /// Number of landmarks on the ground for the ground truth (default 200), the site's origin included.
+    /// Number of landmarks on the ground for the ground truth, 0 to 100000 (default 200), the site's origin included.
     pub landmarks: usize,
     /// Path of the formation's centre.
     pub approach: ApproachConfig,

@@ -2,19 +2,20 @@
 
 use crate::scene::{SceneError, limits};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The small body under the site.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct BodyConfig {
-    /// Gravitational parameter in m³/s² (default 5).
+    /// Gravitational parameter in m³/s², 0 to 1e15 (default 5).
     pub gm_m3_s2: f64,
-    /// Distance of the site from the body's centre in m (default 250).
+    /// Distance of the site from the body's centre in m, 1 to 1e8 (default 250).
     pub radius_m: f64,
-    /// Period of the body's turn in h (default 4.3).
+    /// Period of the body's turn in h, 0.001 to 1e6 (default 4.3).
     pub spin_period_h: f64,
-    /// Latitude of the site in degrees north (default 30).
+    /// Latitude of the site in degrees north, -90 to 90 (default 30).
     pub latitude_deg: f64,
 }
 

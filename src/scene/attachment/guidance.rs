@@ -2,13 +2,14 @@
 
 use crate::scene::{SceneError, limits};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Boundary conditions of an approach that ends at rest above the site.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ApproachConfig {
-    /// Time from start to end in s (default 1800).
+    /// Time from start to end in s, 1 to 1e6 (default 1800).
     pub duration_s: f64,
     /// Position of the formation's centre at t = 0 in the site frame, m (default 10, 10, 800).
     pub initial_position_m: [f64; 3],

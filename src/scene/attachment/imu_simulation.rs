@@ -8,10 +8,11 @@ use crate::stats::random_stream;
 use nalgebra::Vector3;
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// An inertial measurement unit. Each axis of a bias is a first-order Gauss-Markov process.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct NodeImuConfig {
     /// Samples a second, a divisor of 10⁹ (default 10).

@@ -7,23 +7,24 @@ use crate::scene::{SceneError, limits};
 use crate::stats::random_stream;
 use nalgebra::{Isometry3, Translation3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// 1σ of the first states' errors, Gaussian: one draw that all nodes share, and one of each node's own.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct NodeErrorConfig {
-    /// Shared position error in m an axis (default 5).
+    /// Shared position error in m an axis, 1e-9 to 1e6 (default 5).
     pub shared_position_m: f64,
-    /// Shared velocity error in m/s an axis (default 0.1).
+    /// Shared velocity error in m/s an axis, 1e-9 to 10000 (default 0.1).
     pub shared_velocity_m_s: f64,
-    /// Shared attitude error in degrees an axis (default 5).
+    /// Shared attitude error in degrees an axis, 1e-9 to 90 (default 5).
     pub shared_attitude_deg: f64,
-    /// A node's own position error in m an axis (default 0.03).
+    /// A node's own position error in m an axis, 1e-9 to 1e6 (default 0.03).
     pub own_position_m: f64,
-    /// A node's own velocity error in m/s an axis (default 0.004).
+    /// A node's own velocity error in m/s an axis, 1e-9 to 10000 (default 0.004).
     pub own_velocity_m_s: f64,
-    /// A node's own attitude error in degrees an axis (default 2).
+    /// A node's own attitude error in degrees an axis, 1e-9 to 90 (default 2).
     pub own_attitude_deg: f64,
 }
 

@@ -4,22 +4,23 @@ use crate::scene::{SceneError, limits};
 use crate::stats::random_stream;
 use nalgebra::SVector;
 use rand::{Rng, RngExt};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Vibration of each spacecraft about its place in the formation: three sinusoids on each axis, of the same amplitude,
 /// with periods spread evenly in their logarithm and random phases.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FlexConfig {
-    /// R.m.s. displacement along x and y in m an axis (default 0.005).
+    /// R.m.s. displacement along x and y in m an axis, 0 to 100 (default 0.005).
     pub in_plane_m: f64,
-    /// R.m.s. displacement along z in m (default 0.046: 5 % of a side between two nodes).
+    /// R.m.s. displacement along z in m, 0 to 100 (default 0.046: 5 % of a side between two nodes).
     pub out_of_plane_m: f64,
-    /// R.m.s. rotation about x and y in degrees an axis (default 1.5).
+    /// R.m.s. rotation about x and y in degrees an axis, 0 to 20 (default 1.5).
     pub tilt_deg: f64,
-    /// R.m.s. rotation about z in degrees (default 0.5).
+    /// R.m.s. rotation about z in degrees, 0 to 20 (default 0.5).
     pub twist_deg: f64,
-    /// Shortest period in s (default 60).
+    /// Shortest period in s, 0.1 to 1e6 (default 60).
     pub shortest_period_s: f64,
     /// Longest period in s (default 400).
     pub longest_period_s: f64,

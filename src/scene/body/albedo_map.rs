@@ -3,17 +3,18 @@
 use super::{AlbedoImage, GlobeMap, Mesh, MeshAlbedo, PictureEdge};
 use crate::scene::{SceneError, limits};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// A simple cylindrical map: the whole sphere, east longitude to the right, north up.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AlbedoMapFile {
     /// PNG, JPEG or TIFF whose grey values are proportional to albedo; a relative path starts at the folder of the
     /// scenario file.
     pub path: PathBuf,
-    /// East longitude of its left edge in degrees (default -180).
+    /// East longitude of its left edge in degrees, -360 to 360 (default -180).
     #[serde(default = "date_line")]
     pub west_edge_deg: f64,
 }

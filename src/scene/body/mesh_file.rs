@@ -3,11 +3,12 @@
 use super::shape_file::ShapeFile;
 use super::{AlbedoImage, Mesh, MeshAlbedo, PictureEdge};
 use crate::scene::{SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// Unit of a shape file's coordinates.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum LengthUnit {
     /// Metres.
@@ -17,15 +18,15 @@ pub enum LengthUnit {
 }
 
 /// A shape file: OBJ, PLY or STL. Its scale must be said, by `unit` or by `metres_per_unit`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeshFile {
     /// The file; a relative path starts at the folder of the scenario file.
     pub path: PathBuf,
-    /// Unit of the file's coordinates, `"m"` or `"km"`.
+    /// Unit of the file's coordinates (default none: then `metres_per_unit` is required).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<LengthUnit>,
-    /// Metres in one unit of the file, instead of `unit`. It is taken at its word, whatever size of body it gives.
+    /// Metres in one unit of the file, instead of `unit` (default none: then `unit` is required). It is taken at its word, whatever size of body it gives.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub metres_per_unit: Option<f64>,
     /// Picture whose grey values are proportional to albedo (PNG, JPEG or TIFF), laid on by the texture coordinates of

@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, UnitSphere};
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Cumulative number of craters over radius, N(>R) ~ R^-2.
@@ -18,30 +19,31 @@ const CRATER_EXPONENT: f64 = 2.0;
 /// An ellipsoid with fractal relief, craters and boulders. Its ground is seen whole from its centre, so it is watertight;
 /// each boulder is a closed mesh of its own, sunk a little into the ground. Mass properties count the part of a boulder
 /// below the ground twice, as if boulders were a little denser than the body.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ProceduralBody {
-    /// Semi-axes along x, y, z in m (default 300, 250, 220).
+    /// Semi-axes along x, y, z in m, 0.01 to 1e6 (default 300, 250, 220).
     pub semi_axes_m: [f64; 3],
-    /// The mesh has 20·4ⁿ faces (default n = 6: 81,920).
+    /// Number n of subdivisions, 2 to 9; the mesh has 20·4ⁿ faces (default 6: 81920 faces).
     pub subdivisions: u32,
-    /// R.m.s. relief over the mean semi-axis (default 0.04).
+    /// R.m.s. relief over the mean semi-axis, 0 to 0.2 (default 0.04).
     pub relief: f64,
-    /// Octaves of relief, from a third of the circumference down (default 5).
+    /// Octaves of relief, from a third of the circumference down, 1 to 12 (default 5).
     pub relief_octaves: u32,
-    /// Number of craters (default 200).
+    /// Number of craters, 0 to 10000 (default 200).
     pub craters: usize,
     /// Radius of the smallest crater over the mean semi-axis (default 0.06).
     pub smallest_crater: f64,
-    /// Radius of the largest crater over the mean semi-axis (default 0.45).
+    /// Radius of the largest crater over the mean semi-axis, 0.0001 to 1 (default 0.45).
     pub largest_crater: f64,
-    /// Number of boulders (default 0).
+    /// Number of boulders, 0 to 20000 (default 0).
     pub boulders: usize,
     /// Longest semi-axis of the smallest boulder over the mean semi-axis (default 0.01).
     pub smallest_boulder: f64,
-    /// Longest semi-axis of the largest boulder over the mean semi-axis (default 0.1).
+    /// Longest semi-axis of the largest boulder over the mean semi-axis, 1e-5 to 0.5 (default 0.1).
     pub largest_boulder: f64,
-    /// Exponent p of the boulders' numbers over size, N(>R) ~ R^-p (default 2.9, as on Bennu: DellaGiustina et al. 2019).
+    /// Exponent p of the boulders' numbers over size, N(>R) ~ R^-p, 0.1 to 10 (default 2.9, as on Bennu: DellaGiustina
+    /// et al. 2019).
     pub boulder_exponent: f64,
 }
 

@@ -2,11 +2,12 @@
 
 use super::{AlbedoMapFile, MassProperties, Mesh, MeshFile, ProceduralBody};
 use crate::scene::SceneError;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// Shape of a small body.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum BodySource {
     /// Made from a seed.

@@ -2,6 +2,7 @@
 
 use super::{AlbedoMapFile, Mesh};
 use crate::scene::{Photometry, SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How a small body's surface looks below the resolution of its mesh.
@@ -36,7 +37,7 @@ impl Default for BodySurface {
 }
 
 /// The surface of any body, whatever its size: the largest wavelength of the detail follows from the mesh.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SurfaceConfig {
     /// Mean albedo, 0 to 1 (default 0.12).
@@ -46,11 +47,11 @@ pub struct SurfaceConfig {
     pub albedo_map: Option<AlbedoMapFile>,
     /// Whether there is detail below the mesh's resolution, in slopes and albedo (default true).
     pub detail: bool,
-    /// Relative r.m.s. variation of the albedo, per octave of detail (default 0.06).
+    /// Relative r.m.s. variation of the albedo, per octave of detail, 0 to 1 (default 0.06).
     pub albedo_contrast: f64,
-    /// Largest wavelength of the detail, in mean edges of the mesh (default 12).
+    /// Largest wavelength of the detail, in mean edges of the mesh, 0.01 to 1000 (default 12).
     pub detail_wavelength_edges: f64,
-    /// R.m.s. slope of the bump detail, rise over run (default 0.25).
+    /// R.m.s. slope of the bump detail, rise over run, 0 to 2 (default 0.25).
     pub detail_slope: f64,
     /// How the surface scatters sunlight (default lunar-Lambert with weight 0.6).
     pub photometry: Photometry,

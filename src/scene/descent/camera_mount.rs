@@ -3,17 +3,18 @@
 use crate::geometry::so3;
 use crate::scene::{SceneError, limits};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A camera that looks along -z of the lander (down, against the thrust), right along its x and up along its y, turned
 /// toward the site by an angle.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraMountConfig {
     /// Angle in degrees that the optical axis is turned from -z of the lander toward the direction in which the site
-    /// stands at t = 0 (default 0).
+    /// stands at t = 0, -90 to 90 (default 0).
     pub cant_deg: f64,
-    /// Place of the camera in lander axes, m (default 0, 0, 0).
+    /// Place of the camera in lander axes, m, -10 to 10 (default 0, 0, 0).
     pub camera_in_lander_m: [f64; 3],
 }
 

@@ -4,13 +4,14 @@ use super::{
     CameraMountConfig, FrameSchedule, GuidanceConfig, ImuConfig, InitialErrorConfig, PolynomialGuidance, SunConfig,
 };
 use crate::scene::{ElevationConfig, OrthoimageConfig, SceneError, TerrainConfig, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A powered descent to a landing site.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DescentConfig {
-    /// Number of landmarks on the ground for the ground truth (default 200), the site's origin included.
+    /// Number of landmarks on the ground for the ground truth, 0 to 100000 (default 200), the site's origin included.
     pub landmarks: usize,
     /// When pictures are taken (default: once a second).
     pub schedule: FrameSchedule,

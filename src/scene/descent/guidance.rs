@@ -2,10 +2,11 @@
 
 use crate::scene::{SceneError, limits};
 use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Degree of the guidance polynomial.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum GuidanceProfile {
     /// Fourth degree: the initial acceleration, hence the initial attitude, follows from the rest.
@@ -19,10 +20,10 @@ pub enum GuidanceProfile {
 }
 
 /// Boundary conditions of a descent that ends at rest at the site's origin. The defaults resemble Tianwen-1.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct GuidanceConfig {
-    /// Time from start to touchdown in s (default 198).
+    /// Time from start to touchdown in s, 1 to 10000 (default 198).
     pub duration_s: f64,
     /// Position at t = 0 in the site frame, m (default 3300, 5870, 6570).
     pub initial_position_m: [f64; 3],
@@ -30,7 +31,7 @@ pub struct GuidanceConfig {
     pub initial_velocity_m_s: [f64; 3],
     /// Acceleration at touchdown in the site frame, m/s² (default 0, 0, 0.7).
     pub final_acceleration_m_s2: [f64; 3],
-    /// Gravity, downward, in m/s² (default 3.711).
+    /// Gravity, downward, in m/s², 0 to 100 (default 3.711).
     pub gravity_m_s2: f64,
     /// Degree of the polynomial (default `quartic`).
     pub profile: GuidanceProfile,

@@ -6,10 +6,11 @@ use crate::scene::{SceneError, ideal_samples, limits};
 use crate::stats::random_stream;
 use nalgebra::Vector3;
 use rand_distr::{Distribution, StandardNormal};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// An inertial measurement unit with white noise and no bias.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ImuConfig {
     /// Samples a second, a divisor of 10⁹ (default 100).

@@ -8,19 +8,20 @@ use crate::stats::random_stream;
 use nalgebra::{Isometry3, Matrix2, Translation3, Vector2, Vector3};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Errors of the first state, uniform within plus or minus each value on each axis, and of the designated pixel.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct InitialErrorConfig {
-    /// Half-range of the position's error in m an axis (default 1000).
+    /// Half-range of the position's error in m an axis, 1e-6 to 1e6 (default 1000).
     pub position_m: f64,
-    /// Half-range of the velocity's error in m/s an axis (default 10).
+    /// Half-range of the velocity's error in m/s an axis, 1e-9 to 10000 (default 10).
     pub velocity_m_s: f64,
-    /// Half-range of the attitude's error in degrees an axis of the lander (default 2).
+    /// Half-range of the attitude's error in degrees an axis of the lander, 1e-9 to 90 (default 2).
     pub attitude_deg: f64,
-    /// 1σ of the designated landing point's pixel in px an axis (default 0.1), Gaussian.
+    /// 1σ of the designated landing point's pixel in px an axis, 1e-6 to 1000 (default 0.1), Gaussian.
     pub designated_sigma_px: f64,
 }
 

@@ -2,15 +2,16 @@
 
 use super::PolynomialGuidance;
 use crate::scene::{SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Times of the pictures. The last one is taken no lower than `end_height_m` above the site.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum FrameSchedule {
     /// At a constant rate.
     Uniform {
-        /// Pictures a second (default 1).
+        /// Pictures a second, 0.0001 to 10000 (default 1).
         #[serde(default = "one")]
         rate_hz: f64,
         /// Time of the first picture in s (default 0).
@@ -19,7 +20,7 @@ pub enum FrameSchedule {
         /// No picture after this time in s (default 10000: until the end height).
         #[serde(default = "long")]
         end_s: f64,
-        /// Height above the site below which no picture is taken, in m (default 15).
+        /// Height above the site below which no picture is taken, in m, from 0.1 (default 15).
         #[serde(default = "fifteen")]
         end_height_m: f64,
     },
@@ -28,7 +29,7 @@ pub enum FrameSchedule {
         /// Number of pictures (default 60), the first at t = 0.
         #[serde(default = "sixty")]
         count: usize,
-        /// Height above the site of the last picture in m (default 15).
+        /// Height above the site of the last picture in m, from 0.1 (default 15).
         #[serde(default = "fifteen")]
         end_height_m: f64,
     },

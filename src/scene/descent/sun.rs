@@ -3,23 +3,24 @@
 use crate::scene::light::direction;
 use crate::scene::{EphemerisConfig, SceneError, Sunlight, limits};
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// Direction to the Sun in the site frame; it stands still during a descent. An ephemeris goes before a vector, a vector
 /// before the two angles.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SunConfig {
     /// Angle above the horizon in degrees, 0 to 90 (default 40).
     pub elevation_deg: f64,
-    /// Direction on the ground in degrees from x over y (default 150).
+    /// Direction on the ground in degrees from x over y, -360 to 360 (default 150).
     pub azimuth_deg: f64,
     /// Vector toward the Sun in the site frame, of any length (default none).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction_in_site: Option<[f64; 3]>,
-    /// Distance to the Sun in astronomical units, which sets the size of its disc (default 1.52, that of Mars); 0 makes it a
-    /// point. An ephemeris knows better.
+    /// Distance to the Sun in astronomical units, which sets the size of its disc, 0 to 10000 (default 1.52, that of
+    /// Mars); 0 makes it a point. An ephemeris knows better.
     pub distance_au: f64,
     /// Quaternion w, x, y, z that takes ICRF axes to the site's at the time of the descent (default 1, 0, 0, 0); only the
     /// ephemeris needs it.

@@ -2,11 +2,12 @@
 
 use super::RawLayout;
 use crate::scene::{SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// A measured elevation model as the base of the terrain: the table `[descent.elevation]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ElevationConfig {
     /// Whether procedural relief, craters and rocks are added below the model's resolution, in waves of up to two posts
@@ -21,7 +22,7 @@ pub struct ElevationConfig {
 }
 
 /// A picture of the ground from above as its albedo: the table `[descent.orthoimage]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OrthoimageConfig {
     /// What the values mean (default `relative`).
@@ -39,7 +40,7 @@ pub struct OrthoimageConfig {
 }
 
 /// What the values of an orthoimage mean.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AlbedoValues {
     /// Brightness: the terrain's mean albedo times the value over the picture's mean. The picture's own shading by the
@@ -52,7 +53,7 @@ pub enum AlbedoValues {
 
 /// A file of heights or albedo: GeoTIFF, PDS3 image (with its label attached or beside it), TIFF, PNG, JPEG, or bare
 /// samples.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterFile {
     /// The file; a relative path starts at the folder of the scenario file.
@@ -66,7 +67,8 @@ pub struct RasterFile {
     /// Values of the file that mean "not known", beside those that the file names (default none).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub no_data: Vec<f64>,
-    /// Radius of the planet in m for a map in degrees (default: what the file says, or 3396190, which is Mars).
+    /// Radius of the planet in m for a map in degrees, 1000 to 1e9 (default: what the file says, or 3396190, which is
+    /// Mars).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<f64>,
     /// Where the posts lie (default: as the file says).
@@ -78,7 +80,7 @@ pub struct RasterFile {
 }
 
 /// Where the posts of a raster lie. A post is the centre of its pixel.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum RasterGeometry {
     /// As the file says: GeoTIFF and PDS.
@@ -107,7 +109,7 @@ pub enum RasterGeometry {
 }
 
 /// Where the site's origin lies on a map.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum MapSite {
     /// In the middle of the raster.

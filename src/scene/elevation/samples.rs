@@ -2,10 +2,11 @@
 
 use super::raster::{MOST_POSTS, too_many};
 use crate::scene::{SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How the samples of a file are laid out: row by row from the top left.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RawLayout {
     /// Samples in a row.
@@ -20,7 +21,7 @@ pub struct RawLayout {
 }
 
 /// Kind and byte order of a sample.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SampleKind {
     /// Unsigned, 8 bits.

@@ -4,12 +4,13 @@ use super::sunlight::ASTRONOMICAL_UNIT_M;
 use crate::scene::SceneError;
 use anise::prelude::{Almanac, Epoch, Frame};
 use nalgebra::{Unit, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 /// Kernels, body and time that say where the Sun stands.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EphemerisConfig {
     /// SPICE kernels of positions (SPK, `.bsp`), at least one; relative paths start at the folder of the scenario file.

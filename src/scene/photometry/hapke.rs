@@ -4,12 +4,13 @@ use super::PhotometricAngles;
 use super::chandrasekhar::chandrasekhar_h;
 use super::directions::LEAST_COSINE;
 use crate::scene::{SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Hapke's parameters beside the single-scattering albedo w, which is the material's albedo. The defaults are typical of
 /// dark small bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct HapkeParameters {
     /// Asymmetry ξ of the Henyey-Greenstein phase function, the mean cosine of the scattering angle, -0.9 to 0.9 (default

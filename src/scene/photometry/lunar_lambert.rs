@@ -1,10 +1,11 @@
 //! The lunar-Lambert law of McEwen (1991, 1996), with Lambert's and Lommel-Seeliger's laws as its ends.
 
 use crate::scene::{SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Weight L of the Lommel-Seeliger part.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "a number L, or three coefficients [A, B, C] of L = 1 + A α + B α² + C α³ with α in degrees"

@@ -2,10 +2,11 @@
 
 use super::{HapkeParameters, LunarWeight, PhotometricAngles, lunar_lambert, oren_nayar};
 use crate::scene::{SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How a material scatters sunlight. The formulas and their sources are in the documentation of the module.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+/// How a material scatters sunlight. The formulas and their sources stand in the documentation of `scene::photometry`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum Photometry {
     /// Lambert's law.

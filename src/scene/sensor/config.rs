@@ -2,24 +2,25 @@
 
 use super::{Exposure, FixedPatternConfig, ShutterConfig, VignettingConfig};
 use crate::scene::{SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A detector, after the linear camera model of EMVA 1288 (release 4.0). Stages in physical order: vignetting, point
 /// spread, exposure to electrons, dark current, shot noise, fixed pattern, full well, read noise, gain, black level,
 /// digital numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SensorConfig {
-    /// Electrons that a pixel holds at most (default 20 000).
+    /// Electrons that a pixel holds at most, 1 to 1e12 (default 20000).
     pub full_well_electrons: f64,
-    /// R.m.s. read noise in electrons (default 10).
+    /// R.m.s. read noise in electrons, 0 to 1e6 (default 10).
     pub read_noise_electrons: f64,
-    /// Mean dark current in electrons per second and pixel; it collects during the exposure time (default 0).
+    /// Mean dark current in electrons per second and pixel; it collects during the exposure time, 0 to 1e9 (default 0).
     pub dark_current_electrons_s: f64,
     /// Bits a pixel, 1 to 16 (default 8). Digital numbers run from 0 to 2^bits - 1. Pictures of up to 8 bits are stored
     /// in 8-bit files, others in 16-bit files, the numbers as they are: a picture of 12 bits ends at 4095.
     pub bits: u32,
-    /// Gain in electrons per digital number (default: a full well reads as the largest number).
+    /// Gain in electrons per digital number, 1e-6 to 1e9 (default: a full well reads as the largest number).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub electrons_per_dn: Option<f64>,
     /// Digital number of a pixel without electrons (default 0).
@@ -30,9 +31,9 @@ pub struct SensorConfig {
     pub shutter: ShutterConfig,
     /// Fall of brightness toward the picture's edge.
     pub vignetting: VignettingConfig,
-    /// Standard deviation of the Gaussian point-spread function in px (default 0.5).
+    /// Standard deviation of the Gaussian point-spread function in px, 0 to 10 (default 0.5).
     pub psf_sigma_px: f64,
-    /// Radius in px of the disc that defocus makes of a point (default 0).
+    /// Radius in px of the disc that defocus makes of a point, 0 to 20 (default 0).
     pub defocus_radius_px: f64,
     /// Differences between pixels that stay.
     pub fixed_pattern: FixedPatternConfig,

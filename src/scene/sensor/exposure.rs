@@ -1,10 +1,11 @@
 //! How much light is collected.
 
 use crate::scene::{SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How the exposure is chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum Exposure {
     /// For each picture: the 99th percentile of the lit pixels' irradiance stands at 80 % of the full well.

@@ -1,20 +1,21 @@
 //! Differences between pixels that are the same in every picture of a camera.
 
 use crate::scene::{SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Fixed pattern of a detector; EMVA 1288 calls its parts PRNU and DSNU.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FixedPatternConfig {
-    /// Photo-response non-uniformity: relative standard deviation of the pixels' sensitivity (default 0).
+    /// Photo-response non-uniformity: relative standard deviation of the pixels' sensitivity, 0 to 0.5 (default 0).
     pub response_sigma: f64,
-    /// Dark-signal non-uniformity: standard deviation of the pixels' offset in electrons (default 0).
+    /// Dark-signal non-uniformity: standard deviation of the pixels' offset in electrons, 0 to 1e6 (default 0).
     pub offset_sigma_electrons: f64,
     /// Share of hot pixels, 0 to 1 (default 0).
     pub hot_pixel_fraction: f64,
-    /// Mean dark current of hot pixels beyond that of the others, in electrons per second (default 0); it varies from
-    /// one to the next by the exponential distribution.
+    /// Mean dark current of hot pixels beyond that of the others, in electrons per second, 0 to 1e12 (default 0); it
+    /// varies from one to the next by the exponential distribution.
     pub hot_pixel_electrons_s: f64,
 }
 

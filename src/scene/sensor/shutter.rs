@@ -1,16 +1,17 @@
 //! When light is collected.
 
 use crate::scene::{SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A shutter. The time stamp of a picture is the middle of the exposure of its middle row, and the truth is the truth of
 /// that moment.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ShutterConfig {
-    /// Time during which a row collects light in s (default 0: an instant).
+    /// Time during which a row collects light in s, 0 to 3600 (default 0: an instant).
     pub exposure_time_s: f64,
-    /// Time from the read-out of a row to that of the row below in s (default 0: a global shutter).
+    /// Time from the read-out of a row to that of the row below in s, 0 to 1 (default 0: a global shutter).
     pub row_time_s: f64,
     /// Whether motion during the exposure is drawn (default true).
     pub motion: bool,

@@ -1,15 +1,16 @@
 //! Fall of brightness toward the picture's edge.
 
 use crate::scene::{SceneError, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Relative illumination: cos⁴θ, where switched on, times 1 + a₁r² + a₂r⁴ + a₃r⁶.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct VignettingConfig {
     /// Whether brightness falls with the fourth power of the cosine of the angle θ off the optical axis (default false).
     pub cosine_fourth: bool,
-    /// Coefficients a₁, a₂, a₃ of the distance r from the principal point over half the picture's diagonal (default 0).
+    /// Coefficients a₁, a₂, a₃ of the distance r from the principal point over half the picture's diagonal (default 0, 0, 0).
     pub radial: [f64; 3],
 }
 

@@ -3,11 +3,12 @@
 use super::{Sky, Star};
 use crate::scene::{SceneError, limits};
 use nalgebra::UnitQuaternion;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// The sky behind a small body: black, or with stars.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SkyConfig {
     /// Whether stars are drawn (default false).
@@ -16,7 +17,7 @@ pub struct SkyConfig {
     /// file (default: a built-in list of the brightest stars).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub catalogue: Option<PathBuf>,
-    /// Magnitude of the faintest stars drawn (default 6.5).
+    /// Magnitude of the faintest stars drawn, -30 to 30 (default 6.5).
     pub faintest_magnitude: f64,
     /// Light of a star of magnitude 0, summed over the pixels that it falls on, in I/F times px (default: what the camera
     /// would see beside the body, from the Sun's magnitude and distance; exposed for a body, most stars are then too faint

@@ -3,17 +3,18 @@
 use super::{InertiaSource, PhaseConfig};
 use crate::scene::{BodySource, SceneError, SkyConfig, SurfaceConfig, limits};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A body that tumbles without torque in front of a camera that does not turn. Inertial axes are the camera's.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TumblingConfig {
-    /// Number of pictures (default 60), the first at t = 0.
+    /// Number of pictures, 1 to 100000 (default 60), the first at t = 0.
     pub frames: usize,
-    /// Time between pictures in s (default 1).
+    /// Time between pictures in s, 1e-6 to 1e6 (default 1).
     pub interval_s: f64,
-    /// Angular rate at t = 0 in asteroid axes, °/s (default 5.0, 2.3, 3.5).
+    /// Angular rate at t = 0 in asteroid axes, °/s, -360 to 360 (default 5.0, 2.3, 3.5).
     pub rate_deg_s: [f64; 3],
     /// Attitude at t = 0 as a quaternion w, x, y, z that takes inertial to asteroid axes (default 1, 0, 0, 0).
     pub asteroid_from_inertial: [f64; 4],
@@ -29,11 +30,11 @@ pub struct TumblingConfig {
     /// `fill_fraction` (default none).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range_m: Option<f64>,
-    /// Speed of the camera toward the body's centre in m/s, negative to draw back (default 0).
+    /// Speed of the camera toward the body's centre in m/s, negative to draw back, -100000 to 100000 (default 0).
     pub approach_m_s: f64,
     /// Place of the body's centre in the picture, right and down from the middle, in px (default 0, 0).
     pub center_offset_px: [f64; 2],
-    /// Number of landmarks on the surface for the ground truth (default 200).
+    /// Number of landmarks on the surface for the ground truth, 0 to 100000 (default 200).
     pub landmarks: usize,
     /// Inertia (default: the tensor of Deng et al. 2024).
     pub inertia: InertiaSource,

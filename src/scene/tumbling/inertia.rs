@@ -3,10 +3,11 @@
 use super::RigidBody;
 use crate::scene::{MassProperties, SceneError};
 use nalgebra::Matrix3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Inertia of a tumbling body.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum InertiaSource {
     /// A tensor in asteroid axes (rows), to scale only; it need not be that of the shape.

@@ -5,20 +5,22 @@ use crate::geometry::Camera;
 use crate::scene::light::direction;
 use crate::scene::{EphemerisConfig, Mesh, SceneError, Sunlight, limits};
 use nalgebra::{Unit, UnitQuaternion, Vector2, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// Direction to the Sun as the camera sees it; fixed in inertial axes. An ephemeris goes before a vector, a vector before
 /// the two angles.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PhaseConfig {
     /// Angle at the body between camera and Sun in degrees, 0 to 180 (default 35).
     pub phase_deg: f64,
-    /// Direction in the picture that the light comes from, in degrees from right over up (default 135: upper left).
+    /// Direction in the picture that the light comes from, in degrees from right over up, -360 to 360 (default 135:
+    /// upper left).
     pub azimuth_deg: f64,
-    /// Distance to the Sun in astronomical units, which sets the size of its disc (default 1); 0 makes it a point. An
-    /// ephemeris knows better.
+    /// Distance to the Sun in astronomical units, which sets the size of its disc, 0 to 10000 (default 1); 0 makes it a
+    /// point. An ephemeris knows better.
     pub distance_au: f64,
     /// Vector toward the Sun in inertial axes, of any length (default none).
     #[serde(skip_serializing_if = "Option::is_none")]
