@@ -10,7 +10,7 @@ use super::shading::ShadingKind;
 use super::shadow::{ShadowBox, ShadowMap, shadow_axes, texture_from_clip};
 use super::terrain_geometry::TerrainGeometry;
 use super::terrain_levels::LevelRange;
-use super::terrain_view::{ground_box, view_volume};
+use super::terrain_view::SeenGround;
 use super::{Gpu, RenderConfig, RenderError, World};
 use crate::geometry::Camera;
 use crate::scene::{BodySurface, NoiseOctave, OctaveStrength, Photometry, View};
@@ -179,10 +179,15 @@ fn place_terrain(
 ) -> Result<Placement, RenderError> {
     let height_m = terrain.check_view(view)?;
     let levels = LevelRange::new(height_m, lens.finest_focal_px, config.vertex_spacing_px);
-    let covered = ground_box(&lens.raster, view, height_m);
-    terrain.prepare(gpu, &view_volume(&lens.raster, view, &covered), &levels)?;
+    let ground = SeenGround::new(terrain.terrain(), (&lens.raster, view), height_m);
+    terrain.prepare(gpu, &ground.volume(&lens.raster, view), &levels)?;
     let anchor = TerrainGeometry::anchor_m(&view.reference_from_camera.translation.vector);
-    Ok(Placement { covered, levels: Some(levels), anchor_m: anchor.push(0.0), nearest_m: height_m })
+    Ok(Placement {
+        covered: ground.covered,
+        levels: Some(levels),
+        anchor_m: anchor.push(0.0),
+        nearest_m: height_m,
+    })
 }
 
 /// Octaves of a small body's detail.

@@ -47,6 +47,11 @@ impl TerrainGeometry {
         TerrainGeometry { terrain: terrain.clone(), pipelines, pool, uniforms, tiles, groups, indices, tile_count: 0 }
     }
 
+    /// What is drawn.
+    pub(super) fn terrain(&self) -> &Terrain {
+        &self.terrain
+    }
+
     /// Height of the camera above the ground beneath it, in m.
     pub(super) fn check_view(&self, view: &View) -> Result<f64, RenderError> {
         let camera = view.reference_from_camera.translation.vector;
