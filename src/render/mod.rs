@@ -34,6 +34,7 @@ mod stars;
 mod sub_pictures;
 mod surface;
 mod targets;
+mod terrain_fit;
 mod terrain_geometry;
 mod terrain_levels;
 mod terrain_pool;

@@ -182,12 +182,7 @@ fn place_terrain(
     let ground = SeenGround::new(terrain.terrain(), (&lens.raster, view), height_m);
     terrain.prepare(gpu, &ground.volume(&lens.raster, view), &levels)?;
     let anchor = TerrainGeometry::anchor_m(&view.reference_from_camera.translation.vector);
-    Ok(Placement {
-        covered: ground.covered,
-        levels: Some(levels),
-        anchor_m: anchor.push(0.0),
-        nearest_m: height_m,
-    })
+    Ok(Placement { covered: ground.covered, levels: Some(levels), anchor_m: anchor.push(0.0), nearest_m: height_m })
 }
 
 /// Octaves of a small body's detail.

@@ -1,6 +1,7 @@
 //! Terrain tiles on the adapter, kept from frame to frame.
 
 use super::geometry_pass::buffer;
+use super::terrain_fit::fitted_vertices;
 use super::terrain_tile::{TILE_VERTICES, TileKey, TileVertex};
 use super::{Gpu, RenderError};
 use crate::scene::Terrain;
@@ -67,7 +68,7 @@ impl TilePool {
         self.frame += 1;
         let missing: Vec<TileKey> = keys.iter().filter(|key| !self.touch(key)).copied().collect();
         self.make_room(missing.len());
-        let made: Vec<Vec<TileVertex>> = missing.par_iter().map(|key| key.vertices(terrain)).collect();
+        let made: Vec<Vec<TileVertex>> = missing.par_iter().map(|key| fitted_vertices(key, terrain)).collect();
         for (key, vertices) in missing.iter().zip(&made) {
             let index = self.free.pop().expect("room was made for every tile");
             gpu.queue.write_buffer(&self.buffer, TILE_BYTES * u64::from(index), bytemuck::cast_slice(vertices));

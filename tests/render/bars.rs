@@ -6,11 +6,13 @@
 
 mod closure;
 mod continuity;
+mod defocus;
 mod depth;
 mod fiducials;
 mod level_of_detail;
 mod shadows;
 mod sphere;
+mod tilted_ground;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use opnav::geometry::Camera;
@@ -119,9 +121,11 @@ fn accuracy_of_the_renderer() {
         level_of_detail::bars,
         continuity::bars,
         depth::bars,
+        tilted_ground::bars,
         closure::bars,
         shadows::bars,
         sphere::bars,
+        defocus::bars,
     ];
     println!("\n{:<72} {:>10} {:>12}", "renderer", "measured", "bound");
     let mut failed = Vec::new();

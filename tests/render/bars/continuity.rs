@@ -19,7 +19,8 @@ fn renderer(terrain: &Terrain, camera: &Camera) -> Renderer {
     Renderer::new(&gpu(), World::Terrain(terrain), camera, &RenderConfig::default()).expect("a renderer")
 }
 
-fn cracks(views: u64) -> Bar {
+/// Pixels without ground in some views, after what is done to each picture.
+fn cracks(views: u64, tamper: impl Fn(&mut RenderedFrame)) -> Bar {
     let terrain = Terrain::new(&TerrainConfig::default(), 5);
     let camera = awkward_camera(401, 299, 1.2);
     let mut renderer = renderer(&terrain, &camera);
@@ -27,7 +28,8 @@ fn cracks(views: u64) -> Bar {
     for index in 0..views {
         let mut random = random_stream(51, "cracks", index);
         let height_m = 10.0_f64.powf(random.random_range(0.3..4.08));
-        let frame = renderer.render(&view_from(&terrain, height_m, &mut random)).expect("a picture");
+        let mut frame = renderer.render(&view_from(&terrain, height_m, &mut random)).expect("a picture");
+        tamper(&mut frame);
         missing += frame.depth_m.iter().filter(|d| !d.is_finite()).count();
     }
     Bar::at_most(format!("cracks: pixels without ground in {views} views"), missing as f64, 0.0, "px")
@@ -60,8 +62,9 @@ fn gap_m(
     )
 }
 
-/// Changes from frame to frame of the gap at fixed places, in px, while the camera sinks from each height to half of it.
-fn jumps_px(heights_m: &[f64]) -> Vec<f64> {
+/// Changes from frame to frame of the gap at fixed places, in px, while the camera sinks from each height to half of it; the
+/// drawn depth is multiplied by what `tamper` says of a height.
+fn jumps_px(heights_m: &[f64], tamper: impl Fn(f64) -> f32) -> Vec<f64> {
     let terrain = Terrain::new(&TerrainConfig::default(), 7);
     let camera = awkward_camera(331, 307, 0.8);
     let mut renderer = renderer(&terrain, &camera);
@@ -77,7 +80,8 @@ fn jumps_px(heights_m: &[f64]) -> Vec<f64> {
         let mut height_m = *top_m;
         while height_m > 0.5 * top_m {
             let view = look_down(&terrain, center, height_m);
-            let frame = renderer.render(&view).expect("a picture");
+            let mut frame = renderer.render(&view).expect("a picture");
+            frame.depth_m.iter_mut().for_each(|depth_m| *depth_m *= tamper(height_m));
             let footprint_m = height_m / camera.mean_focal_px();
             for (place, last) in places.iter().zip(&mut before) {
                 let now = gap_m(&terrain, (&camera, &view), &frame, place);
@@ -129,8 +133,8 @@ fn sameness(heights_m: &[f64]) -> Bar {
     Bar::at_most("repetition: correlation of a picture with itself moved", alike.fold(0.0, f64::max), MOST_ALIKE, "")
 }
 
-fn popping(tops_m: &[f64]) -> [Bar; 2] {
-    let jumps = jumps_px(tops_m);
+fn popping(tops_m: &[f64], tamper: impl Fn(f64) -> f32) -> [Bar; 2] {
+    let jumps = jumps_px(tops_m, tamper);
     let at = |share: f64| jumps[((jumps.len() - 1) as f64 * share) as usize];
     [
         Bar::at_most("popping: change of the drawn ground from frame to frame, 99 %", at(0.99), 0.1, "px"),
@@ -140,10 +144,10 @@ fn popping(tops_m: &[f64]) -> [Bar; 2] {
 
 pub fn bars(extent: Extent) -> Vec<Bar> {
     if extent == Extent::Small {
-        return vec![cracks(12), sameness(&[2000.0])];
+        return vec![cracks(12, |_| ()), sameness(&[2000.0])];
     }
-    let [most, worst] = popping(&[12_000.0, 3000.0, 750.0, 200.0, 50.0, 12.0, 4.0]);
-    vec![cracks(60), most, worst, sameness(&[10_000.0, 2000.0, 300.0, 40.0, 5.0])]
+    let [most, worst] = popping(&[12_000.0, 3000.0, 750.0, 200.0, 50.0, 12.0, 4.0], |_| 1.0);
+    vec![cracks(60, |_| ()), most, worst, sameness(&[10_000.0, 2000.0, 300.0, 40.0, 5.0])]
 }
 
 #[test]
@@ -162,6 +166,21 @@ fn a_picture_of_two_equal_tiles_is_noticed() {
     }
     let alike = most_alike(&values, 160);
     assert!(alike > MOST_ALIKE, "two equal tiles correlate by {alike} only");
+}
+
+#[test]
+fn a_crack_of_one_pixel_is_noticed() {
+    assert!(cracks(1, |_| ()).holds(), "whole ground is refused");
+    assert!(!cracks(1, |frame| frame.depth_m[4321] = f32::INFINITY).holds(), "a hole passes unnoticed");
+}
+
+#[test]
+fn ground_that_jumps_is_noticed() {
+    let [steady, _] = popping(&[200.0], |_| 1.0);
+    // By half a pixel, three times in seventy frames.
+    let jumping = |height_m: f64| if ((height_m / 30.0) as u32).is_multiple_of(2) { 1.0 } else { 1.0 + 0.5 / 391.0 };
+    let [most, _] = popping(&[200.0], jumping);
+    assert!(!most.holds() && most.measured > 2.0 * steady.measured, "jumps pass unnoticed: {most:?}, {steady:?}");
 }
 
 #[test]

@@ -4,13 +4,15 @@
 //! its edge within a pixel if rays within a pixel around it say what the mask says. Where the Sun grazes the surface
 //! (the terminator), light and dark blend into each other and there is no edge to locate: such pixels are left out.
 
+mod ground;
+
 use super::{Bar, Extent, Tamper, awkward_camera, check, check_refused};
 use crate::render::ray_caster::RayCaster;
 use crate::render::{gpu, lobed, look_at, plain};
-use nalgebra::{Unit, Vector2, Vector3};
+use nalgebra::{Vector2, Vector3};
 use opnav::geometry::Camera;
 use opnav::render::{RenderConfig, RenderedFrame, Renderer, World};
-use opnav::scene::{SmallBody, Terrain, TerrainConfig, View};
+use opnav::scene::{SmallBody, View};
 use rayon::prelude::*;
 
 const WITHIN_PX: f64 = 1.0;
@@ -138,55 +140,9 @@ fn direction(camera: &Camera, view: &View, pixel: &Vector2<f64>) -> Vector3<f64>
     view.reference_from_camera.rotation * ideal.push(1.0)
 }
 
-/// Steep ground without detail near a pixel, so that what is drawn is what rays see.
-fn steep() -> TerrainConfig {
-    TerrainConfig {
-        largest_wavelength_m: 1600.0,
-        smallest_wavelength_m: 100.0,
-        rms_slope: 0.25,
-        slope_scale_m: 100.0,
-        crater_density: 0.5,
-        smallest_crater_m: 100.0,
-        largest_crater_m: 400.0,
-        crater_depth_ratio: 0.3,
-        site_slope: 1.0,
-        ..TerrainConfig::default().without_features()
-    }
-}
-
-fn ground(sun_elevation_deg: f64, size_px: u32, tamper: Tamper) -> Vec<Bar> {
-    let terrain = Terrain::new(&steep(), 3);
-    let camera = awkward_camera(size_px, size_px * 5 / 6, 1.0);
-    let (sin, cos) = sun_elevation_deg.to_radians().sin_cos();
-    let sun = Vector3::new(cos * 0.8, cos * 0.6, sin);
-    let eye = Vector3::new(2000.0, 1500.0, terrain.height_m(2000.0, 1500.0) + 1100.0);
-    let view = look_at(eye, eye + Vector3::new(0.15, -0.2, -1.0), Vector3::y(), sun);
-    let frame = Renderer::new(&gpu(), World::Terrain(&terrain), &camera, &RenderConfig::default())
-        .and_then(|mut renderer| renderer.render(&view))
-        .expect("a picture");
-    let probe = |pixel: &Vector2<f64>| {
-        let direction = Unit::new_normalize(direction(&camera, &view, pixel));
-        let Some(range_m) = terrain.ray_cast(&eye, &direction) else { return Light::Unknown };
-        let place = eye + direction.as_ref() * range_m;
-        let gradient = terrain.gradient(place.x, place.y);
-        let normal = Vector3::new(-gradient.x, -gradient.y, 1.0).normalize();
-        if normal.dot(&sun) < GRAZING_COSINE {
-            return Light::Unknown;
-        }
-        let lifted = place + normal * 0.01;
-        if terrain.ray_cast(&lifted, &view.sun_in_reference).is_some() { Light::Shadowed } else { Light::Lit }
-    };
-    bars_of(&format!("ground, Sun at {sun_elevation_deg}°"), edges(&frame, &probe, tamper))
-}
-
 pub fn bars(extent: Extent) -> Vec<Bar> {
-    match extent {
-        Extent::Small => body(300, Tamper::Honest),
-        Extent::Full => {
-            let grounds = [15.0, 35.0, 60.0].iter().flat_map(|elevation| ground(*elevation, 420, Tamper::Honest));
-            body(900, Tamper::Honest).into_iter().chain(grounds).collect()
-        }
-    }
+    let size_px = if extent == Extent::Small { 300 } else { 900 };
+    body(size_px, Tamper::Honest).into_iter().chain(ground::bars(extent)).collect()
 }
 
 #[test]
@@ -198,6 +154,7 @@ fn shadow_edges_lie_where_rays_to_the_sun_put_them() {
 fn misplaced_shadows_are_noticed() {
     for tamper in [Tamper::HalfPixel, Tamper::UpsideDown] {
         check_refused(tamper, &body(300, tamper)[..2]);
+        check_refused(tamper, &ground::tampered(tamper)[..2]);
     }
 }
 
