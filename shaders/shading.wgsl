@@ -149,7 +149,8 @@ fn mask_of(smooth_normal: vec3<f32>, light: f32) -> u32 {
 
 // The samples of one pixel between two depths, summed by their share of the pixel.
 struct Layer {
-    share: f32,
+    share: f32,           // of the pixel
+    weight: f32,          // of the means below
     numbers: vec3<f32>,   // normal, or gradient and albedo
     painted: f32,         // albedo over the mean that a body's mesh carries: the length of its normal
     in_camera: vec3<f32>, // m; below a convex surface, for it is a mean
@@ -158,24 +159,31 @@ struct Layer {
     farthest: f32,
 }
 
+//
+// Where samples lie on the pixel's border, borders count half in the share (the trapezoidal rule). For the means they count
+// 1/2 - 1/(2 stride), so that the means are also those of quadratic functions (Simpson's rule at a stride of 2).
 fn layer_of(pixel: vec2<u32>, near: f32, far: f32) -> Layer {
     let taps = shading.counts.x;
     let stride = shading.counts.y;
-    var layer = Layer(0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), FARTHEST, 0.0);
+    let border = 0.5 - 0.5 / f32(stride);
+    var layer = Layer(0.0, 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), FARTHEST, 0.0);
     var off_center = FARTHEST;
     for (var k = 0u; k < taps * taps; k++) {
         let tap = vec2(k % taps, k / taps);
         let seen = seen_between(pixel * stride + tap, near, far);
         if seen.share > 0.0 {
             let outer = (tap == vec2(0u)) | (tap == vec2(taps - 1u));
-            let halves = select(vec2(1.0), vec2(0.5), outer & vec2(taps != stride));
-            let share = halves.x * halves.y * seen.share;
+            let on_border = outer & vec2(taps != stride);
+            let halves = select(vec2(1.0), vec2(0.5), on_border);
+            let parts = select(vec2(1.0), vec2(border), on_border);
+            let weight = parts.x * parts.y * seen.share;
             let depth = seen.in_camera.z;
-            layer.share += share;
+            layer.share += halves.x * halves.y * seen.share;
+            layer.weight += weight;
             let painted = select(length(seen.numbers), 1.0, TERRAIN);
-            layer.numbers += share / painted * seen.numbers;
-            layer.painted += share * painted;
-            layer.in_camera += share * seen.in_camera;
+            layer.numbers += weight / painted * seen.numbers;
+            layer.painted += weight * painted;
+            layer.in_camera += weight * seen.in_camera;
             let off = vec2<f32>(tap) - 0.5 * f32(taps - 1u);
             if dot(off, off) < off_center {
                 off_center = dot(off, off);
@@ -185,7 +193,7 @@ fn layer_of(pixel: vec2<u32>, near: f32, far: f32) -> Layer {
             layer.farthest = max(layer.farthest, depth);
         }
     }
-    let inverse = 1.0 / max(layer.share, 1e-6);
+    let inverse = 1.0 / max(layer.weight, 1e-6);
     layer.numbers *= inverse;
     layer.painted *= inverse;
     layer.in_camera *= inverse;

@@ -10,6 +10,8 @@ use nalgebra::{Vector2, Vector3};
 
 /// Least range over spacing for which a tile never borders on one two levels away.
 const LEAST_RANGE_OVER_SPACING: f64 = 160.0;
+/// A level's vertices keep their places up to this share of its range, or farther out where its tiles are large.
+const LEAST_MORPH_START: f64 = 0.85;
 /// A level's vertices have reached the coarser grid at this share of its range; the rest is a guard for rounding.
 const MORPH_END: f64 = 0.98;
 
@@ -30,7 +32,7 @@ impl LevelRange {
     pub(super) fn new(height_m: f64, focal_px: f64, vertex_spacing_px: f64) -> Self {
         let range_over_spacing = (focal_px / vertex_spacing_px).max(LEAST_RANGE_OVER_SPACING);
         let diagonal = (SIDE - 1) as f64 * std::f64::consts::SQRT_2;
-        let morph_start = 0.51 + diagonal / range_over_spacing;
+        let morph_start = (0.51 + diagonal / range_over_spacing).max(LEAST_MORPH_START);
         LevelRange { height_m, range_over_spacing, morph_start, morph_end: MORPH_END }
     }
 

@@ -16,9 +16,9 @@ pub(super) const COARSEST_LEVEL: i32 = 14;
 /// Relief and albedo of this many spacings and more are the vertices' to carry; finer ones are shaded per pixel.
 const SHADE_SPACINGS: f64 = 8.0;
 /// Relief of this many spacings and more displaces vertices.
-const HEIGHT_SPACINGS: f64 = 1.5;
-/// Classes of craters and rocks whose smallest diameter has this many spacings are drawn.
-const FEATURE_SPACINGS: f64 = 2.0;
+const HEIGHT_SPACINGS: f64 = 1.0;
+/// Features of this many spacings and more displace vertices.
+const FEATURE_SPACINGS: f64 = 1.0;
 
 /// Height in m, gradient by x and y, relative change of albedo.
 pub(super) type TileVertex = [f32; 4];

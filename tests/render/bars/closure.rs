@@ -1,14 +1,16 @@
 //! One frame, carried by its depth and the poses into the next, looks like the next.
 //!
 //! Both are seen through the default detector's optics, without noise and before the grey levels are rounded. A camera
-//! that comes nearer resolves more: of the two, the finer picture is blurred to the coarser one's resolution.
+//! that comes nearer resolves more: of the two, the finer picture is blurred to the coarser one's resolution. A surface that
+//! is not Lambert's looks brighter from one side than from another: each grey level is carried by the ratio of what the
+//! photometric function says for both cameras, from the truth's normal and albedo. Without that the residual is stated, too.
 
 use super::{Bar, Extent, Tamper, check, check_refused};
 use crate::render::{gpu, look_at};
 use nalgebra::{Point3, Vector2, Vector3};
 use opnav::geometry::Camera;
 use opnav::render::{RenderConfig, RenderedFrame, Renderer, World};
-use opnav::scene::{BodySurface, ProceduralBody, Scenario, Scene, SmallBody, View};
+use opnav::scene::{BodySurface, PhotometricAngles, Photometry, ProceduralBody, Scenario, Scene, SmallBody, View};
 use std::path::Path;
 
 const BOUND_LEVELS: f64 = 1.5;
@@ -83,8 +85,31 @@ fn cubic_weights(t: f64) -> [f64; 4] {
     [far(1.0 + t), near(t), near(1.0 - t), far(2.0 - t)]
 }
 
+/// How a surface scatters light.
+struct Material {
+    photometry: Photometry,
+    /// Radiance of the sky over that of a sunlit white surface.
+    sky_light: f64,
+}
+
+impl Material {
+    /// Radiance of a sunlit place toward a camera; normal in reference axes, with the albedo behind it.
+    fn radiance(&self, surface: &[f32; 4], view: &View, place: &Point3<f64>) -> f64 {
+        let [x, y, z, albedo] = surface.map(f64::from);
+        let to_camera = (Point3::from(view.reference_from_camera.translation.vector) - place).normalize();
+        let angles = PhotometricAngles::new(&Vector3::new(x, y, z), &view.sun_in_reference, &to_camera);
+        self.photometry.reflectance(albedo, &angles) + self.sky_light * albedo * (0.5 + 0.5 * z)
+    }
+}
+
 /// Residuals in grey levels of the pixels that both frames see lit.
-fn residuals(camera: &Camera, [(from, from_view), (to, to_view)]: [(&Exposed, &View); 2], tamper: Tamper) -> Vec<f64> {
+fn residuals(
+    camera: &Camera,
+    material: Option<&Material>,
+    [(from, from_view), (to, to_view)]: [(&Exposed, &View); 2],
+    tamper: Tamper,
+) -> Vec<f64> {
+    let surface = from.frame.surface.as_ref().expect("asked for");
     let to_from = to_view.reference_from_camera.inverse() * from_view.reference_from_camera;
     let mut residuals = Vec::new();
     for index in 0..from.frame.depth_m.len() {
@@ -104,7 +129,12 @@ fn residuals(camera: &Camera, [(from, from_view), (to, to_view)]: [(&Exposed, &V
         }
         let Some((level, seen_m)) = to.at(&pixel) else { continue };
         if (seen_m / place.z - 1.0).abs() < SAME_DEPTH {
-            residuals.push((level - from.level(index)).abs());
+            let place = from_view.reference_from_camera * Point3::from(bearing * scale);
+            let brighter = material.map_or(1.0, |material| {
+                let toward = |view: &View| material.radiance(&surface[index], view, &place);
+                toward(to_view) / toward(from_view)
+            });
+            residuals.push((level - from.level(index) * brighter).abs());
         }
     }
     residuals
@@ -124,8 +154,16 @@ fn median_depth_m(frame: &RenderedFrame) -> f64 {
     f64::from(depths[depths.len() / 2])
 }
 
-/// Median residual between two views, and the share of the first frame's lit pixels that it rests on.
-fn closure(renderer: &mut Renderer, camera: &Camera, views: &[View; 2], tamper: Tamper) -> (f64, f64) {
+/// What closes and what it is made of.
+struct Pair<'a> {
+    camera: &'a Camera,
+    material: Material,
+    views: [View; 2],
+}
+
+/// Median residuals between two views, with and without the change of the photometric function, and the share of the first
+/// frame's lit pixels that they rest on.
+fn closure(renderer: &mut Renderer, Pair { camera, material, views }: &Pair, tamper: Tamper) -> [f64; 3] {
     let frames = [0, 1].map(|k| renderer.render(&views[k]).expect("a picture"));
     let levels_per_radiance = levels_per_radiance(&frames[0]);
     let [near, far] = [&frames[1], &frames[0]].map(median_depth_m);
@@ -133,11 +171,19 @@ fn closure(renderer: &mut Renderer, camera: &Camera, views: &[View; 2], tamper: 
     let variance = |finer: f64| (finer * finer - 1.0).max(0.0) * (PSF_SIGMA_PX.powi(2) + PIXEL_VARIANCE_PX2);
     let sigma_px = [near / far, far / near].map(|finer| (PSF_SIGMA_PX.powi(2) + variance(finer)).sqrt());
     let exposed = [0, 1].map(|k| Exposed::new(&frames[k], levels_per_radiance, sigma_px[k]));
-    let mut residuals = residuals(camera, [(&exposed[0], &views[0]), (&exposed[1], &views[1])], tamper);
-    residuals.sort_by(f64::total_cmp);
+    let [carried, as_they_are] = [Some(material), None].map(|material| {
+        let mut found = residuals(camera, material, [(&exposed[0], &views[0]), (&exposed[1], &views[1])], tamper);
+        found.sort_by(f64::total_cmp);
+        found
+    });
+    let median = |residuals: &[f64]| residuals.get(residuals.len() / 2).copied().unwrap_or(f64::NAN);
     let lit = frames[0].mask.iter().filter(|mask| **mask & RenderedFrame::LIT != 0).count();
-    let median = residuals.get(residuals.len() / 2).copied().unwrap_or(f64::NAN);
-    (median, residuals.len() as f64 / lit as f64)
+    [median(&carried), median(&as_they_are), carried.len() as f64 / lit as f64]
+}
+
+fn renderer(world: World, camera: &Camera) -> Renderer {
+    let config = RenderConfig { surface_truth: true, ..RenderConfig::default() };
+    Renderer::new(&gpu(), world, camera, &config).expect("a renderer")
 }
 
 fn scene(name: &str, size_px: u32) -> Scene {
@@ -147,9 +193,10 @@ fn scene(name: &str, size_px: u32) -> Scene {
     scenario.build(folder).expect("a scene")
 }
 
-fn measured(what: &str, (median, share): (f64, f64)) -> [Bar; 2] {
+fn measured(what: &str, [carried, as_they_are, share]: [f64; 3]) -> [Bar; 3] {
     [
-        Bar::at_most(format!("closure, {what}: median residual"), median, BOUND_LEVELS, "levels"),
+        Bar::at_most(format!("closure, {what}: median residual"), carried, BOUND_LEVELS, "levels"),
+        Bar::stated(format!("closure, {what}: as if Lambert's surface"), as_they_are, "levels"),
         Bar::at_least(format!("closure, {what}: share of lit pixels"), share, 0.3, ""),
     ]
 }
@@ -158,16 +205,17 @@ fn measured(what: &str, (median, share): (f64, f64)) -> [Bar; 2] {
 fn descent(heights_m: &[f64], size_px: u32, tamper: Tamper) -> Vec<Bar> {
     let Scene::Descent(scene) = scene("mars_descent.toml", size_px) else { panic!("not a descent") };
     let (camera, views) = (scene.cameras[0].sensor.camera, &scene.cameras[0].views);
-    let mut renderer =
-        Renderer::new(&gpu(), World::Terrain(&scene.terrain), &camera, &RenderConfig::default()).expect("a renderer");
+    let mut renderer = renderer(World::Terrain(&scene.terrain), &camera);
     let pair = |height_m: f64| {
         let first = views.iter().position(|view| view.reference_from_camera.translation.z < height_m);
         let first = first.expect("the descent passes this height").min(views.len() - 2);
-        [views[first], views[first + 1]]
+        let (photometry, sky_light) = (scene.terrain.photometry().clone(), scene.terrain.sky_light());
+        let material = Material { photometry, sky_light };
+        Pair { camera: &camera, material, views: [views[first], views[first + 1]] }
     };
     heights_m
         .iter()
-        .flat_map(|h| measured(&format!("descent at {h} m"), closure(&mut renderer, &camera, &pair(*h), tamper)))
+        .flat_map(|h| measured(&format!("descent at {h} m"), closure(&mut renderer, &pair(*h), tamper)))
         .collect()
 }
 
@@ -176,16 +224,19 @@ fn body(ranges_m: &[f64], size_px: u32, tamper: Tamper) -> Vec<Bar> {
     let mesh = ProceduralBody::default().mesh(5);
     let body = SmallBody { mesh, surface: BodySurface::default() };
     let camera = Camera::from_fov(size_px, size_px, 0.5);
-    let mut renderer =
-        Renderer::new(&gpu(), World::Body(&body), &camera, &RenderConfig::default()).expect("a renderer");
+    let mut renderer = renderer(World::Body(&body), &camera);
     let view = |range_m: f64, turn_rad: f64| {
         let eye = Vector3::new(turn_rad.cos(), turn_rad.sin(), 0.4).normalize() * range_m;
         look_at(eye, Vector3::zeros(), Vector3::new(0.2, 0.1, 1.0), Vector3::new(1.0, 0.8, 0.5))
     };
-    let pair = |range_m: f64| [view(range_m, 0.3), view(0.995 * range_m, 0.3 + 1.5_f64.to_radians())];
+    let pair = |range_m: f64| Pair {
+        camera: &camera,
+        material: Material { photometry: body.surface.photometry.clone(), sky_light: 0.0 },
+        views: [view(range_m, 0.3), view(0.995 * range_m, 0.3 + 1.5_f64.to_radians())],
+    };
     ranges_m
         .iter()
-        .flat_map(|r| measured(&format!("body from {r} m"), closure(&mut renderer, &camera, &pair(*r), tamper)))
+        .flat_map(|r| measured(&format!("body from {r} m"), closure(&mut renderer, &pair(*r), tamper)))
         .collect()
 }
 
@@ -193,9 +244,9 @@ fn body(ranges_m: &[f64], size_px: u32, tamper: Tamper) -> Vec<Bar> {
 fn tumbling(size_px: u32) -> Bar {
     let Scene::Tumbling(scene) = scene("tumbling_paper.toml", size_px) else { panic!("not a tumbling body") };
     let (camera, views) = (scene.cameras[0].sensor.camera, &scene.cameras[0].views);
-    let mut renderer =
-        Renderer::new(&gpu(), World::Body(&scene.body), &camera, &RenderConfig::default()).expect("a renderer");
-    let (median, _) = closure(&mut renderer, &camera, &[views[10], views[11]], Tamper::Honest);
+    let material = Material { photometry: scene.body.surface.photometry.clone(), sky_light: 0.0 };
+    let pair = Pair { camera: &camera, material, views: [views[10], views[11]] };
+    let [_, median, _] = closure(&mut renderer(World::Body(&scene.body), &camera), &pair, Tamper::Honest);
     Bar::stated("closure, body that tumbles by 7° a frame under the Sun: median residual", median, "levels")
 }
 

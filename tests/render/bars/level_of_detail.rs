@@ -136,7 +136,7 @@ fn nearly_all_drawn_ground_is_the_analytic_ground() {
     let shares: Vec<Bar> = bars(Extent::Small)
         .into_iter()
         .filter(|bar| bar.quantity.ends_with(WITHIN))
-        .map(|bar| Bar::at_least(bar.quantity, bar.measured, 0.94, ""))
+        .map(|bar| Bar::at_least(bar.quantity, bar.measured, 0.975, ""))
         .collect();
     assert_eq!(shares.len(), 4);
     check(&shares);
