@@ -92,7 +92,8 @@ impl Surface {
 
         let finest_m = 0.5 * placement.nearest_m.max(0.0) / camera.mean_focal_px();
         let eye_m = view.reference_from_camera.translation.vector;
-        let (octaves, count) = octave_table(&self.octaves, &eye_m, finest_m);
+        let carried = self.octaves.partition_point(|octave| octave.wavelength_m >= placement.carried_m);
+        let (octaves, count) = octave_table(&self.octaves[carried..], &eye_m, finest_m);
         let texel_m = shadow_map.texel_m(&placement.covered);
         Ok(Shading {
             reference_from_camera: columns(&rotation),
@@ -142,6 +143,8 @@ struct Placement {
     anchor_m: Vector3<f64>,
     /// No surface is nearer, in m.
     nearest_m: f64,
+    /// Octaves of this wavelength in m and more are left to the vertices.
+    carried_m: f64,
 }
 
 impl Placement {
@@ -168,7 +171,13 @@ fn place_body(body: &BodyGeometry, view: &View) -> Result<Placement, RenderError
     let center_m = center_m - view.reference_from_camera.translation.vector;
     let axes = shadow_axes(&view.sun_in_reference);
     let covered = ShadowBox { axes, center_m, half_m: Vector3::new(1.02, 1.02, 1.1) * radius_m };
-    Ok(Placement { covered, levels: None, anchor_m: Vector3::zeros(), nearest_m: center_m.norm() - radius_m })
+    Ok(Placement {
+        covered,
+        levels: None,
+        anchor_m: Vector3::zeros(),
+        nearest_m: center_m.norm() - radius_m,
+        carried_m: f64::INFINITY,
+    })
 }
 
 fn place_terrain(
@@ -180,9 +189,9 @@ fn place_terrain(
     let height_m = terrain.check_view(view)?;
     let levels = LevelRange::new(height_m, lens.finest_focal_px, config.vertex_spacing_px);
     let ground = SeenGround::new(terrain.terrain(), (&lens.raster, view), height_m);
-    terrain.prepare(gpu, &ground.volume(&lens.raster, view), &levels)?;
-    let anchor = TerrainGeometry::anchor_m(&view.reference_from_camera.translation.vector);
-    Ok(Placement { covered: ground.covered, levels: Some(levels), anchor_m: anchor.push(0.0), nearest_m: height_m })
+    let carried_m = terrain.prepare(gpu, &ground.volume(&lens.raster, view), &levels)?;
+    let anchor_m = TerrainGeometry::anchor_m(&view.reference_from_camera.translation.vector).push(0.0);
+    Ok(Placement { covered: ground.covered, levels: Some(levels), anchor_m, nearest_m: height_m, carried_m })
 }
 
 /// Octaves of a small body's detail.

@@ -70,8 +70,9 @@ impl TerrainGeometry {
         camera_in_site_m.xy().map(f64::round)
     }
 
-    /// Brings the tiles of a view onto the adapter.
-    pub(super) fn prepare(&mut self, gpu: &Gpu, volume: &ViewVolume, levels: &LevelRange) -> Result<(), RenderError> {
+    /// Brings the tiles of a view onto the adapter. From the wavelength in m that is returned on, vertices carry all
+    /// that the picture shows of the octaves.
+    pub(super) fn prepare(&mut self, gpu: &Gpu, volume: &ViewVolume, levels: &LevelRange) -> Result<f64, RenderError> {
         let keys = choose_tiles(&self.terrain, volume, levels);
         let capacity = self.pool.capacity();
         let slots = self.pool.place(gpu, &self.terrain, &keys)?;
@@ -84,7 +85,7 @@ impl TerrainGeometry {
         let tiles: Vec<Tile> = keys.iter().zip(slots).map(|(key, slot)| tile(key, slot, &anchor_m)).collect();
         gpu.queue.write_buffer(&self.tiles, 0, bytemuck::cast_slice(&tiles));
         self.tile_count = tiles.len() as u32;
-        Ok(())
+        Ok(keys.iter().map(TileKey::carried_m).fold(0.0, f64::max))
     }
 
     pub(super) fn set_geometry(&self, gpu: &Gpu, role: Role, geometry: &Geometry) {

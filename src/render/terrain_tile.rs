@@ -62,6 +62,11 @@ impl TileKey {
         }
     }
 
+    /// Octaves of this wavelength in m and more are the vertices' to carry, be they slid onto the coarser grid or not.
+    pub(super) fn carried_m(&self) -> f64 {
+        2.0 * SHADE_SPACINGS * self.spacing_m()
+    }
+
     /// The tile's vertices row by row, then every other one as the next coarser level has it.
     pub(super) fn vertices(&self, terrain: &Terrain) -> Vec<TileVertex> {
         let coarser = TileKey { level: self.level + 1, ..*self };
