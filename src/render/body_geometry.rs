@@ -97,14 +97,16 @@ fn pipelines(gpu: &Gpu, is_painted: bool) -> GeometryPipelines {
     let buffers = [Some(layout)];
     let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
     let bindings = [uniform_entry(0, vertex), uniform_entry(1, vertex | fragment), picture_entry(2)];
+    let culled = Some(wgpu::Face::Back);
     GeometryPipelines::new(
         gpu,
         &if is_painted {
             let entries = ["painted_vertex", "painted_fragment"];
-            GeometryKind { source: albedo_map::SOURCE, entries, buffers: &buffers, bindings: &bindings }
+            GeometryKind { source: albedo_map::SOURCE, entries, buffers: &buffers, bindings: &bindings, culled }
         } else {
             let source = include_str!("../../shaders/body_geometry.wgsl");
-            GeometryKind { source, entries: ["vertex", "fragment"], buffers: &buffers, bindings: &bindings[..1] }
+            let entries = ["vertex", "fragment"];
+            GeometryKind { source, entries, buffers: &buffers, bindings: &bindings[..1], culled }
         },
     )
 }

@@ -28,6 +28,8 @@ pub(super) struct GeometryKind<'a> {
     pub entries: [&'a str; 2],
     pub buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
     pub bindings: &'a [wgpu::BindGroupLayoutEntry],
+    /// Sides of triangles that pictures leave out.
+    pub culled: Option<wgpu::Face>,
 }
 
 impl GeometryPipelines {
@@ -67,7 +69,7 @@ fn pipeline(
 ) -> wgpu::RenderPipeline {
     let targets = [Some(wgpu::ColorTargetState::from(SAMPLE_FORMAT))];
     let (cull_mode, depth_compare) = match role {
-        Role::Picture => (Some(wgpu::Face::Back), wgpu::CompareFunction::Greater),
+        Role::Picture => (kind.culled, wgpu::CompareFunction::Greater),
         Role::Shadow => (None, wgpu::CompareFunction::Less),
     };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {

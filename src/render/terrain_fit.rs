@@ -59,3 +59,59 @@ impl Lattice {
             .collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::TerrainConfig;
+    use crate::stats::random_stream;
+    use rand::RngExt;
+
+    /// The column of a grid that a tile shares with the one beside it.
+    fn border(vertices: &[TileVertex], side: usize, column: usize) -> Vec<TileVertex> {
+        (0..side).map(|row| vertices[row * side + column]).collect()
+    }
+
+    #[test]
+    fn tiles_side_by_side_share_their_vertices_to_the_last_bit() {
+        let terrain = Terrain::new(&TerrainConfig::default(), 5);
+        let mut random = random_stream(5, "neighbours", 0);
+        for level in -8..=14 {
+            for _ in 0..20 {
+                let reach = (4000.0 / (32.0 * 2.0_f64.powi(level))).max(1.0) as i32;
+                let [x, y] = [random.random_range(-reach..=reach), random.random_range(-reach..=reach)];
+                let west = fitted_vertices(&TileKey { level, x, y }, &terrain);
+                let east = fitted_vertices(&TileKey { level, x: x + 1, y }, &terrain);
+                let (fine, coarse) = (SIDE * SIDE, COARSE_SIDE - 1);
+                let shown = format!("level {level}, tile {x}, {y}");
+                assert_eq!(border(&west, SIDE, SIDE - 1), border(&east, SIDE, 0), "{shown}");
+                let [west, east] = [&west[fine..], &east[fine..]];
+                assert_eq!(border(west, COARSE_SIDE, coarse), border(east, COARSE_SIDE, 0), "{shown}, coarser");
+            }
+        }
+    }
+
+    #[test]
+    fn the_coarser_copy_is_the_coarser_tile_to_the_last_bit() {
+        let terrain = Terrain::new(&TerrainConfig::default(), 5);
+        let mut random = random_stream(5, "parents", 0);
+        for level in -8..=13 {
+            for _ in 0..20 {
+                let reach = (4000.0 / (32.0 * 2.0_f64.powi(level))).max(1.0) as i32;
+                let [x, y] = [random.random_range(-reach..=reach), random.random_range(-reach..=reach)];
+                let child = fitted_vertices(&TileKey { level, x, y }, &terrain);
+                let parent =
+                    fitted_vertices(&TileKey { level: level + 1, x: x.div_euclid(2), y: y.div_euclid(2) }, &terrain);
+                let first = [x, y].map(|c| c.rem_euclid(2) as usize * (COARSE_SIDE - 1));
+                for (row, column) in (0..COARSE_SIDE).flat_map(|r| (0..COARSE_SIDE).map(move |c| (r, c))) {
+                    let copy = child[SIDE * SIDE + row * COARSE_SIDE + column];
+                    assert_eq!(
+                        copy,
+                        parent[(first[1] + row) * SIDE + first[0] + column],
+                        "level {level}, tile {x}, {y}"
+                    );
+                }
+            }
+        }
+    }
+}

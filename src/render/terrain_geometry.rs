@@ -32,6 +32,8 @@ impl TerrainGeometry {
             entries: ["vertex", "fragment"],
             buffers: &[],
             bindings: &[uniform_entry(0, wgpu::ShaderStages::VERTEX), storage_entry(1), storage_entry(2)],
+            // Slivers of vertices that have nearly slid onto each other face either way by rounding: none may be missing.
+            culled: None,
         };
         let pipelines = GeometryPipelines::new(gpu, &kind);
         let pool = TilePool::new(gpu);
