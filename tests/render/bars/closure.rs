@@ -112,7 +112,7 @@ fn residuals(
     let surface = from.frame.surface.as_ref().expect("asked for");
     let to_from = to_view.reference_from_camera.inverse() * from_view.reference_from_camera;
     let mut residuals = Vec::new();
-    for index in 0..from.frame.depth_m.len() {
+    for (index, seen) in surface.iter().enumerate() {
         let (u, v) = (index as u32 % camera.width_px, index as u32 / camera.width_px);
         let depth_m = f64::from(from.frame.depth_m[index]);
         if from.frame.mask[index] & RenderedFrame::LIT == 0 {
@@ -131,7 +131,7 @@ fn residuals(
         if (seen_m / place.z - 1.0).abs() < SAME_DEPTH {
             let place = from_view.reference_from_camera * Point3::from(bearing * scale);
             let brighter = material.map_or(1.0, |material| {
-                let toward = |view: &View| material.radiance(&surface[index], view, &place);
+                let toward = |view: &View| material.radiance(seen, view, &place);
                 toward(to_view) / toward(from_view)
             });
             residuals.push((level - from.level(index) * brighter).abs());
@@ -209,7 +209,7 @@ fn descent(heights_m: &[f64], size_px: u32, tamper: Tamper) -> Vec<Bar> {
     let pair = |height_m: f64| {
         let first = views.iter().position(|view| view.reference_from_camera.translation.z < height_m);
         let first = first.expect("the descent passes this height").min(views.len() - 2);
-        let (photometry, sky_light) = (scene.terrain.photometry().clone(), scene.terrain.sky_light());
+        let (photometry, sky_light) = (*scene.terrain.photometry(), scene.terrain.sky_light());
         let material = Material { photometry, sky_light };
         Pair { camera: &camera, material, views: [views[first], views[first + 1]] }
     };
@@ -231,7 +231,7 @@ fn body(ranges_m: &[f64], size_px: u32, tamper: Tamper) -> Vec<Bar> {
     };
     let pair = |range_m: f64| Pair {
         camera: &camera,
-        material: Material { photometry: body.surface.photometry.clone(), sky_light: 0.0 },
+        material: Material { photometry: body.surface.photometry, sky_light: 0.0 },
         views: [view(range_m, 0.3), view(0.995 * range_m, 0.3 + 1.5_f64.to_radians())],
     };
     ranges_m
@@ -244,7 +244,7 @@ fn body(ranges_m: &[f64], size_px: u32, tamper: Tamper) -> Vec<Bar> {
 fn tumbling(size_px: u32) -> Bar {
     let Scene::Tumbling(scene) = scene("tumbling_paper.toml", size_px) else { panic!("not a tumbling body") };
     let (camera, views) = (scene.cameras[0].sensor.camera, &scene.cameras[0].views);
-    let material = Material { photometry: scene.body.surface.photometry.clone(), sky_light: 0.0 };
+    let material = Material { photometry: scene.body.surface.photometry, sky_light: 0.0 };
     let pair = Pair { camera: &camera, material, views: [views[10], views[11]] };
     let [_, median, _] = closure(&mut renderer(World::Body(&scene.body), &camera), &pair, Tamper::Honest);
     Bar::stated("closure, body that tumbles by 7° a frame under the Sun: median residual", median, "levels")
