@@ -1,6 +1,8 @@
 //! One test binary with a module a room, so that it links once.
 
 mod architecture;
+#[cfg(any(feature = "render", feature = "vision"))]
+mod bar;
 #[cfg(all(feature = "render", feature = "vision"))]
 mod cli;
 mod dataset;

@@ -14,18 +14,10 @@ mod shadows;
 mod sphere;
 mod tilted_ground;
 
+use crate::bar::{Bar, Extent, check, check_table};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use opnav::geometry::Camera;
 use rand::RngExt;
-
-/// How much is measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Extent {
-    /// Enough to notice a fault.
-    Small,
-    /// Enough to state a figure.
-    Full,
-}
 
 /// What is done to a measurement on purpose.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,73 +30,6 @@ pub enum Tamper {
     RangeForDepth,
     /// Rows counted from below.
     UpsideDown,
-}
-
-/// One figure and its bound.
-#[derive(Debug, Clone)]
-pub struct Bar {
-    quantity: String,
-    measured: f64,
-    bound: f64,
-    unit: &'static str,
-    side: Side,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Side {
-    AtMost,
-    AtLeast,
-    Stated,
-}
-
-impl Bar {
-    fn at_most(quantity: impl Into<String>, measured: f64, bound: f64, unit: &'static str) -> Self {
-        Bar { quantity: quantity.into(), measured, bound, unit, side: Side::AtMost }
-    }
-
-    fn at_least(quantity: impl Into<String>, measured: f64, bound: f64, unit: &'static str) -> Self {
-        Bar { quantity: quantity.into(), measured, bound, unit, side: Side::AtLeast }
-    }
-
-    /// A figure that helps to judge the others and has no bound.
-    fn stated(quantity: impl Into<String>, measured: f64, unit: &'static str) -> Self {
-        Bar { quantity: quantity.into(), measured, bound: f64::NAN, unit, side: Side::Stated }
-    }
-
-    /// NaN never holds.
-    fn holds(&self) -> bool {
-        match self.side {
-            Side::AtMost => self.measured <= self.bound,
-            Side::AtLeast => self.measured >= self.bound,
-            Side::Stated => true,
-        }
-    }
-
-    fn row(&self) -> String {
-        let bound = match self.side {
-            Side::AtMost => format!("<= {}", figure(self.bound)),
-            Side::AtLeast => format!(">= {}", figure(self.bound)),
-            Side::Stated => String::new(),
-        };
-        let verdict = match self.side {
-            Side::Stated => "",
-            _ if self.holds() => "pass",
-            _ => "FAIL",
-        };
-        format!("{:<72} {:>10} {:>12} {:<12} {verdict}", self.quantity, figure(self.measured), bound, self.unit)
-    }
-}
-
-fn figure(value: f64) -> String {
-    let size = value.abs();
-    if size != 0.0 && !(1e-3..1e5).contains(&size) { format!("{value:.1e}") } else { format!("{value:.4}") }
-}
-
-/// Prints the bars and fails if one does not hold.
-fn check(bars: &[Bar]) {
-    bars.iter().for_each(|bar| println!("{}", bar.row()));
-    let failed: Vec<String> = bars.iter().filter(|bar| !bar.holds()).map(Bar::row).collect();
-    assert!(failed.is_empty(), "not held:\n{}", failed.join("\n"));
 }
 
 /// Fails unless a bar refuses the tampered measurement.
@@ -127,15 +52,7 @@ fn accuracy_of_the_renderer() {
         sphere::bars,
         defocus::bars,
     ];
-    println!("\n{:<72} {:>10} {:>12}", "renderer", "measured", "bound");
-    let mut failed = Vec::new();
-    for part in parts {
-        for bar in part(Extent::Full) {
-            println!("{}", bar.row());
-            failed.extend((!bar.holds()).then(|| bar.row()));
-        }
-    }
-    assert!(failed.is_empty(), "not held:\n{}", failed.join("\n"));
+    check_table("renderer", parts.into_iter().map(|part| part(Extent::Full)));
 }
 
 /// A camera with nothing convenient about it: odd size, principal point off the middle, pixels not square.
