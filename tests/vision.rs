@@ -3,6 +3,7 @@
 mod bearings;
 mod features;
 mod files;
+mod gaps;
 mod rotation;
 mod sequences;
 mod texture;

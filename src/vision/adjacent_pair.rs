@@ -10,7 +10,8 @@ use std::time::Instant;
 
 /// An adjacent pair: its matches and what they say.
 pub(super) struct Pair {
-    pub(super) matches: Vec<IndexMatch>,
+    pub(super) match_count: usize,
+    matches: Vec<IndexMatch>,
     pub(super) pixels: PairPixels,
     pub(super) solution: PairSolution,
     links: Vec<Option<Link>>,
@@ -19,6 +20,20 @@ pub(super) struct Pair {
 }
 
 impl Pair {
+    /// Whether two rival solutions are left, which the neighbours may settle.
+    pub(super) fn is_open(&self) -> bool {
+        self.solution.status == PairStatus::Degenerate
+    }
+
+    /// The pair without what only solving it again needs: a long sequence keeps little of each pair.
+    pub(super) fn without_pixels(mut self) -> Self {
+        (self.matches, self.links) = self.verified().unzip();
+        if !self.matches.is_empty() {
+            self.solution.inliers = vec![true; self.matches.len()];
+        }
+        Pair { pixels: PairPixels::default(), ..self }
+    }
+
     /// Matches that may extend tracks, with their links.
     pub(super) fn verified(&self) -> impl Iterator<Item = (IndexMatch, Option<Link>)> + '_ {
         let usable = matches!(self.solution.status, PairStatus::Ok | PairStatus::NoMotion | PairStatus::Degenerate);
@@ -27,6 +42,7 @@ impl Pair {
         agreeing.filter(move |(_, inlier)| usable && **inlier).map(|((m, link), _)| (*m, link))
     }
 }
+
 /// Solves a pair, sharpens the matches that agree, and solves it again with them.
 pub(super) fn solve_sharp_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pair, VisionError> {
     let mut pair = solve_pair(job, from, to)?;
@@ -54,6 +70,7 @@ fn solve_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pai
     if from.features.len() < fewest || to.features.len() < fewest {
         let solution = PairSolution::failed(PairStatus::NoFeatures, 0);
         return Ok(Pair {
+            match_count: 0,
             matches: vec![],
             pixels: PairPixels::default(),
             solution,
@@ -76,7 +93,8 @@ fn solve_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pai
             && solution.inlier_count() >= 3 * fewest;
         let better = best.as_ref().is_none_or(|b| solution.inlier_count() > b.solution.inlier_count());
         if better {
-            best = Some(Pair { matches, pixels, solution, links: vec![], match_ms, rotation_ms });
+            let match_count = matches.len();
+            best = Some(Pair { match_count, matches, pixels, solution, links: vec![], match_ms, rotation_ms });
         }
         if clear {
             break;

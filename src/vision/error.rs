@@ -15,6 +15,18 @@ pub enum VisionError {
         /// Pictures selected.
         found: usize,
     },
+    /// Pictures were selected, but nearly none of them can be used.
+    #[error(
+        "at least two pictures are needed, and {found} of the {selected} selected can be used; the first fault: {problem}"
+    )]
+    TooFewUsable {
+        /// Pictures that can be used.
+        found: usize,
+        /// Pictures selected.
+        selected: usize,
+        /// What is wrong with the first of the others, and what to do.
+        problem: String,
+    },
     /// A parameter outside its range.
     #[error("front-end parameter {name} is {value}: {cure}")]
     OutOfRange {

@@ -6,7 +6,9 @@ use super::matching::{Described, IndexMatch, match_features, match_features_guid
 use super::sharpen::Link;
 use super::silhouette::{bright_centroid_px, inside_silhouette};
 use super::tracks::SharedPoint;
-use super::{Feature, FrontEndConfig, FrontEndMode, MatchedPair, PixelMatches, VisionError, detect_harris};
+use super::{
+    Feature, FrameStatus, FrontEndConfig, FrontEndMode, MatchedPair, PixelMatches, VisionError, detect_harris,
+};
 use crate::dataset::{Frame, ImageSequence};
 use crate::geometry::Camera;
 use image::GrayImage;
@@ -28,10 +30,13 @@ pub(super) fn milliseconds(start: Instant) -> f64 {
 }
 
 impl FrameFeatures {
-    /// Loads a picture, finds its features and describes them.
+    /// Loads a picture, finds its features and describes them; a picture that cannot be loaded is an outcome.
     pub(super) fn find(sequence: &ImageSequence, frame: &Frame, config: &FrontEndConfig) -> Result<Self, VisionError> {
         let start = Instant::now();
-        let picture = sequence.load(frame)?;
+        let picture = match sequence.load(frame) {
+            Ok(picture) => picture,
+            Err(error) => return Ok(FrameFeatures::none(FrameReport::unusable(frame, &error))),
+        };
         let load_ms = milliseconds(start);
         let start = Instant::now();
         let about_center = config.mode == FrontEndMode::FixedCenter;
@@ -44,9 +49,11 @@ impl FrameFeatures {
         let turned = describe(&picture, &features, Orientation::Centroid)?;
         let describe_ms = milliseconds(start);
         let (index, t_ns) = (frame.index, frame.t_ns);
+        let enough = features.len() >= config.rotation.min_matches;
         let report = FrameReport {
             index,
             t_ns,
+            status: if enough { FrameStatus::Ok } else { FrameStatus::NoFeatures },
             features: features.len(),
             load_ms,
             detect_ms,
@@ -54,6 +61,11 @@ impl FrameFeatures {
             ..FrameReport::default()
         };
         Ok(FrameFeatures { features, centroid_px, report, picture, upright, turned })
+    }
+
+    fn none(report: FrameReport) -> Self {
+        let (upright, turned) = (Vec::new(), Vec::new());
+        FrameFeatures { features: vec![], centroid_px: None, report, picture: GrayImage::default(), upright, turned }
     }
 
     fn described(&self, orientation: Orientation) -> Described<'_> {

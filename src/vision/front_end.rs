@@ -1,7 +1,7 @@
 //! What the front end takes and gives.
 
-use super::{RelativeRotation, TrackObservation};
-use crate::dataset::DesignatedPoint;
+use super::{FrameStatus, RelativeRotation, TrackObservation};
+use crate::dataset::{DatasetError, DesignatedPoint, Frame};
 use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector2, Vector3};
 use std::ops::Range;
 
@@ -34,6 +34,10 @@ pub struct FrameReport {
     pub index: usize,
     /// Time in ns.
     pub t_ns: i64,
+    /// What became of it.
+    pub status: FrameStatus,
+    /// What is wrong with the file and what to do, where it could not be used.
+    pub problem: Option<String>,
     /// Features found.
     pub features: usize,
     /// Matches with the picture before.
@@ -48,6 +52,18 @@ pub struct FrameReport {
     pub match_ms: f64,
     /// Solving the rotation from the picture before, ms.
     pub rotation_ms: f64,
+}
+
+impl FrameReport {
+    /// Report of a picture that could not be loaded.
+    pub(super) fn unusable(frame: &Frame, error: &DatasetError) -> Self {
+        let status = match error {
+            DatasetError::WrongSize { .. } => FrameStatus::WrongSize,
+            _ => FrameStatus::Unreadable,
+        };
+        let problem = Some(error.to_string());
+        FrameReport { index: frame.index, t_ns: frame.t_ns, status, problem, ..FrameReport::default() }
+    }
 }
 
 /// Where the designated point was carried to in one picture.
@@ -73,9 +89,10 @@ pub struct FrontEnd {
     /// Tracks of two or more pictures in order of time, then of track number; the designated point's σ is that of its
     /// last step: of the pixel given the ground point that is tracked. Its drift off the site is in `designated`.
     pub observations: Vec<TrackObservation>,
-    /// Rotations of adjacent pictures in order of time, then of keyframe pairs.
+    /// Rotations of adjacent pictures in order of time; then, in order of time too, those of pictures on both sides of
+    /// pictures that cannot be used, and of keyframe pairs.
     pub rotations: Vec<RelativeRotation>,
-    /// One report a picture.
+    /// One report a picture, those that could not be used included.
     pub frames: Vec<FrameReport>,
     /// Direction of the centre of rotation, in the fixed-centre mode.
     pub center_in_camera: Option<Unit<Vector3<f64>>>,

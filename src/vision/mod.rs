@@ -43,6 +43,8 @@ mod pair_fit;
 #[cfg(feature = "vision")]
 mod pair_models;
 #[cfg(feature = "vision")]
+mod pair_order;
+#[cfg(feature = "vision")]
 mod patch;
 #[cfg(feature = "vision")]
 mod plausible;
@@ -70,7 +72,7 @@ mod usac;
 #[cfg(feature = "vision")]
 pub use opencv_bridge::opencv_version;
 pub use overlay::{contact_sheet, draw_tracks};
-pub use result::{MatchedPair, PairStatus, RelativeRotation, RotationModel, TrackObservation};
+pub use result::{FrameStatus, MatchedPair, PairStatus, RelativeRotation, RotationModel, TrackObservation};
 pub use rotations_file::{read_relative_rotations, write_relative_rotations};
 pub use tracks_file::{read_tracks, write_tracks};
 

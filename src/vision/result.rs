@@ -64,6 +64,21 @@ pub enum PairStatus {
     Rejected,
 }
 
+/// What became of one frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FrameStatus {
+    /// Its features were used.
+    #[default]
+    Ok,
+    /// Too few features for a pair: dark, saturated, or without texture.
+    NoFeatures,
+    /// Its size is not the camera's.
+    WrongSize,
+    /// The file is missing or damaged.
+    Unreadable,
+}
+
 /// Rotation between two frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RelativeRotation {

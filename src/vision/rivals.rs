@@ -15,7 +15,7 @@ pub(super) fn settle_rivals(job: &Job, chain: &mut Chain) -> Result<Center, Visi
         pair.solution = relative_rotation(pair.pixels.view(), job.camera(), &hints, &job.config.rotation)?;
         Ok(())
     };
-    let open = |pair: &Pair| pair.solution.status == PairStatus::Degenerate && job.prior.is_none();
+    let open = |pair: &Pair| pair.is_open() && job.prior.is_none();
     let mut normal: Option<Unit<Vector3<f64>>> = None;
     for pair in &mut chain.pairs {
         if let Some(known) = normal.filter(|_| open(pair)) {

@@ -4,13 +4,14 @@ use super::adjacent_pair::{Pair, solve_sharp_pair};
 use super::designated::carry_designated;
 use super::fixed_center::{CenterProblem, CenteredPair, rotations_about_center};
 use super::frame_features::FrameFeatures;
-use super::front_end::{FrontEnd, RotationPrediction, TrackInputs};
+use super::front_end::{FrameReport, FrontEnd, RotationPrediction, TrackInputs};
 use super::keyframes::keyframe_rotations;
+use super::pair_order::rotations_in_order;
 use super::rivals::settle_rivals;
 use super::tracks::Tracks;
 use super::{
-    FrontEndConfig, FrontEndMode, PairSolution, PairStatus, RelativeRotation, RotationModel, TrackObservation,
-    VisionError,
+    FrameStatus, FrontEndConfig, FrontEndMode, PairSolution, PairStatus, RelativeRotation, RotationModel,
+    TrackObservation, VisionError,
 };
 use crate::dataset::{Frame, ImageSequence};
 use crate::geometry::Camera;
@@ -20,10 +21,11 @@ use rayon::prelude::*;
 /// Pictures held in memory at a time.
 const CHUNK: usize = 8;
 
-/// Everything about the pictures and adjacent pairs of a sequence.
+/// Everything about the usable pictures of a sequence and the pairs of each with the next; reports of the others.
 pub(super) struct Chain {
     pub(super) frames: Vec<FrameFeatures>,
     pub(super) pairs: Vec<Pair>,
+    pub(super) lost: Vec<FrameReport>,
 }
 
 /// The fixed part of the work.
@@ -48,11 +50,14 @@ impl Job<'_> {
 
 /// Runs the front end: features, matches, rotations, tracks, keyframe pairs, the designated point.
 ///
+/// A picture that cannot be read, is of the wrong size or without features is reported by status; the pictures on both
+/// sides of it make a pair, and tracks go on over the gap.
+///
 /// `progress` is told how many pictures have been read, from any thread. The result does not depend on the number of
 /// threads, times aside.
 ///
 /// # Errors
-/// Fewer than two pictures, a picture that cannot be read, a parameter out of range, or OpenCV's refusal.
+/// Fewer than two pictures that can be read, a parameter out of range, or OpenCV's refusal.
 pub fn track_sequence(
     sequence: &ImageSequence,
     config: &FrontEndConfig,
@@ -61,16 +66,18 @@ pub fn track_sequence(
 ) -> Result<FrontEnd, VisionError> {
     config.validate()?;
     opencv::core::set_num_threads(1).map_err(VisionError::opencv("set its number of threads"))?;
-    let chosen = chosen_frames(sequence, inputs)?;
+    let mut chosen = chosen_frames(sequence, inputs)?;
     let job = Job { sequence, config, prior: inputs.rotation_prior };
     let mut chain = link(&job, &chosen, progress)?;
+    let reports = all_reports(&chain)?;
+    chosen.retain(|frame| chain.frames.binary_search_by_key(&frame.index, |f| f.report.index).is_ok());
     let center = match config.mode {
         FrontEndMode::Auto => settle_rivals(&job, &mut chain)?,
         FrontEndMode::FixedCenter => solve_about_center(&job, &mut chain),
     };
     let tracks = chain_tracks(&chain);
-    let mut rotations: Vec<RelativeRotation> = (0..chain.pairs.len()).map(|k| adjacent(&chain, k)).collect();
-    rotations.extend(keyframe_rotations(&job, &chain, &tracks, center.as_ref())?);
+    let keyframes = keyframe_rotations(&job, &chain, &tracks, center.as_ref())?;
+    let rotations = rotations_in_order(&chain, &reports, keyframes);
     let designated = match &inputs.designated {
         Some(start) => carry_designated(&job, &chosen, &tracks, start)?,
         None => Vec::new(),
@@ -84,7 +91,7 @@ pub fn track_sequence(
     Ok(FrontEnd {
         observations,
         rotations,
-        frames: chain.frames.into_iter().map(|f| f.report).collect(),
+        frames: reports,
         center_in_camera: center.map(|c| c.0),
         center_covariance_rad2: center.map(|c| c.1),
         designated,
@@ -104,7 +111,7 @@ fn chosen_frames<'a>(sequence: &'a ImageSequence, inputs: &TrackInputs) -> Resul
 /// Features of all pictures and matches of adjacent ones, a chunk at a time.
 fn link(job: &Job, chosen: &[&Frame], progress: &(dyn Fn(usize) + Sync)) -> Result<Chain, VisionError> {
     let done = std::sync::atomic::AtomicUsize::new(0);
-    let mut chain = Chain { frames: Vec::new(), pairs: Vec::new() };
+    let mut chain = Chain { frames: Vec::new(), pairs: Vec::new(), lost: Vec::new() };
     for chunk in chosen.chunks(CHUNK) {
         let find = |frame: &&Frame| {
             let found = FrameFeatures::find(job.sequence, frame, job.config);
@@ -112,16 +119,22 @@ fn link(job: &Job, chosen: &[&Frame], progress: &(dyn Fn(usize) + Sync)) -> Resu
             found
         };
         let first = chain.frames.len().saturating_sub(1);
-        chain.frames.extend(chunk.par_iter().map(find).collect::<Result<Vec<_>, _>>()?);
+        for found in chunk.par_iter().map(find).collect::<Result<Vec<_>, _>>()? {
+            match found.report.status {
+                FrameStatus::Ok => chain.frames.push(found),
+                _ => chain.lost.push(found.report),
+            }
+        }
         let open: Vec<&[FrameFeatures]> = chain.frames[first..].windows(2).collect();
         let pairs = open.par_iter().map(|w| solve_sharp_pair(job, &w[0], &w[1])).collect::<Result<Vec<_>, _>>()?;
-        chain.pairs.extend(pairs);
-        let last = chain.frames.len() - 1;
+        let may_be_solved_again = |p: &Pair| job.config.mode == FrontEndMode::FixedCenter || p.is_open();
+        chain.pairs.extend(pairs.into_iter().map(|p| if may_be_solved_again(&p) { p } else { p.without_pixels() }));
+        let last = chain.frames.len().saturating_sub(1);
         chain.frames[first..last].iter_mut().for_each(FrameFeatures::forget_picture);
     }
     for (k, pair) in chain.pairs.iter().enumerate() {
         let report = &mut chain.frames[k + 1].report;
-        (report.matches, report.match_ms, report.rotation_ms) = (pair.matches.len(), pair.match_ms, pair.rotation_ms);
+        (report.matches, report.match_ms, report.rotation_ms) = (pair.match_count, pair.match_ms, pair.rotation_ms);
     }
     Ok(chain)
 }
@@ -166,9 +179,22 @@ fn chain_tracks(chain: &Chain) -> Tracks {
     tracks
 }
 
-fn adjacent(chain: &Chain, k: usize) -> RelativeRotation {
+/// Reports of all pictures in order; refused where fewer than two could be loaded.
+fn all_reports(chain: &Chain) -> Result<Vec<FrameReport>, VisionError> {
+    let usable = chain.frames.iter().map(|f| &f.report);
+    let mut all: Vec<FrameReport> = usable.chain(&chain.lost).cloned().collect();
+    all.sort_unstable_by_key(|r| r.index);
+    let found = all.iter().filter(|r| r.problem.is_none()).count();
+    match all.iter().find_map(|r| r.problem.clone()) {
+        Some(problem) if found < 2 => Err(VisionError::TooFewUsable { found, selected: all.len(), problem }),
+        _ => Ok(all),
+    }
+}
+
+/// The rotation of a picture and the next usable one.
+pub(super) fn linked(chain: &Chain, k: usize) -> RelativeRotation {
     let times = (chain.frames[k].report.t_ns, chain.frames[k + 1].report.t_ns);
-    as_relative_rotation(times, chain.pairs[k].matches.len(), &chain.pairs[k].solution)
+    as_relative_rotation(times, chain.pairs[k].match_count, &chain.pairs[k].solution)
 }
 
 /// A pair's solution in the form of the contract.
