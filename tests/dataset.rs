@@ -1,5 +1,6 @@
 //! Tests of the room `dataset`.
 
+mod folders;
 mod pictures;
 
 use image::{DynamicImage, GrayImage, ImageBuffer, Luma};
@@ -536,9 +537,9 @@ fn bad_lists_of_frames_are_refused_with_the_line() {
     let cases = [
         ("#t\n100,100.png\n100,200.png\n", Some(3), "100 ns does not come after"),
         ("#t\n200,200.png\n100,100.png\n", Some(3), "does not come after"),
-        ("#t\n100 100.png\n", Some(2), "timestamp [ns],filename"),
+        ("#t\n100\n", Some(2), "timestamp [ns],filename"),
         ("#t\nnoon,100.png\n", Some(2), "'noon' is not a time stamp"),
-        ("#t\n100,lost.png\n", Some(2), "lost.png does not exist"),
+        ("#t\n100,lost.png\n", None, "none of its 1 pictures exists"),
     ];
     for (text, line, word) in cases {
         fs::write(&list, text).expect("write");

@@ -21,6 +21,14 @@ pub fn field_of_view_deg(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Parses a positive number.
+pub fn positive_number(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
+        _ => Err(format!("'{text}' is not a positive number")),
+    }
+}
+
 /// Parses a whole number from 1.
 pub fn positive(text: &str) -> Result<usize, String> {
     text.parse::<usize>().ok().filter(|n| *n > 0).ok_or_else(|| format!("'{text}' is not a whole number from 1"))

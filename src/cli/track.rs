@@ -1,8 +1,8 @@
 //! `opnav track`: any folder of pictures to tracks and relative rotations.
 
-use super::arguments::{CameraArguments, frame_range, positive};
+use super::arguments::{CameraArguments, frame_range, positive, positive_number};
 use super::progress::Terminal;
-use opnav::pipeline::{FrontEndConfig, PipelineError, TrackRequest, track};
+use opnav::pipeline::{FrameTimes, FrontEndConfig, PipelineError, Progress, TrackRequest, track};
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -16,6 +16,12 @@ pub struct Arguments {
     out: PathBuf,
     #[command(flatten)]
     camera: CameraArguments,
+    /// List of `timestamp [ns],filename` for pictures whose names are no time stamps.
+    #[arg(long, value_name = "LIST.CSV", conflicts_with = "rate_hz")]
+    times: Option<PathBuf>,
+    /// Pictures a second, in the order of their names.
+    #[arg(long, value_name = "HZ", value_parser = positive_number)]
+    rate_hz: Option<f64>,
     /// Take every N-th picture.
     #[arg(long, value_name = "N", default_value = "1", value_parser = positive)]
     every: usize,
@@ -30,11 +36,17 @@ pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineErr
         folder: arguments.folder.clone(),
         out: arguments.out.clone(),
         camera: arguments.camera.source(),
+        times: match (&arguments.times, arguments.rate_hz) {
+            (Some(path), _) => FrameTimes::List(path.clone()),
+            (None, Some(rate_hz)) => FrameTimes::RateHz(rate_hz),
+            (None, None) => FrameTimes::Folder,
+        },
         every: arguments.every,
         frames: arguments.frames.clone(),
         config: FrontEndConfig::default(),
     };
     let summary = track(&request, terminal)?;
+    summary.notes.iter().for_each(|note| terminal.note(note));
     let count = |name: &str| summary.counts.get(name).copied().unwrap_or(0);
     terminal.say(&format!(
         "{} frames, {} of {} pairs accepted, result in {}",

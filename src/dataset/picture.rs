@@ -1,6 +1,6 @@
 //! Grey pictures of 1 to 16 bits a pixel.
 
-use image::{DynamicImage, GrayImage, ImageBuffer, Luma};
+use image::{DynamicImage, GrayImage, ImageBuffer};
 
 /// A grey picture as a detector delivers it: digital numbers from 0 to 2^bits - 1, rows from the top.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,24 +30,4 @@ impl GreyPicture {
         let bytes = self.numbers.iter().map(|n| *n as u8).collect();
         GrayImage::from_raw(self.width_px, self.height_px, bytes).map(DynamicImage::ImageLuma8)
     }
-}
-
-/// A picture of any kind as 8-bit grey. `bits` says how many bits of each pixel its numbers use, so that the largest
-/// number becomes 255; all bits of the file if `None`.
-pub(super) fn to_eight_bits(image: DynamicImage, bits: Option<u32>) -> GrayImage {
-    match (image, bits) {
-        (DynamicImage::ImageLuma16(deep), Some(bits)) if bits < 16 => scaled(&deep, bits),
-        (DynamicImage::ImageLuma8(shallow), Some(bits)) if bits < 8 => scaled(&shallow, bits),
-        (image, _) => image.into_luma8(),
-    }
-}
-
-fn scaled<T: image::Primitive + Into<u32>>(image: &ImageBuffer<Luma<T>, Vec<T>>, bits: u32) -> GrayImage
-where
-    Luma<T>: image::Pixel<Subpixel = T>,
-{
-    let largest = (1_u32 << bits) - 1;
-    let byte = |pixel: &Luma<T>| ((pixel.0[0].into() * 255 + largest / 2) / largest).min(255) as u8;
-    let bytes = image.pixels().map(byte).collect();
-    GrayImage::from_raw(image.width(), image.height(), bytes).expect("one byte a pixel")
 }

@@ -1,7 +1,9 @@
 //! Image sequences: our data sets, EuRoC folders, and plain folders of pictures.
 
-use super::picture::to_eight_bits;
-use super::{CameraSensor, DatasetError, read_camera_sensor};
+use super::frame_list::FrameList;
+use super::grey_levels::NumberSample;
+use super::picture_file::{Header, Numbers, read_header, read_numbers};
+use super::{CameraSensor, DatasetError, FrameTimes, GreyLevels, read_camera_sensor};
 use crate::geometry::Camera;
 use image::GrayImage;
 use nalgebra::Isometry3;
@@ -39,9 +41,14 @@ pub struct ImageSequence {
     pub sensor: CameraSensor,
     /// The pictures, times strictly increasing.
     pub frames: Vec<Frame>,
+    /// How their numbers become 8-bit grey.
+    pub levels: GreyLevels,
+    /// What had to be assumed, in words for the user.
+    pub notes: Vec<String>,
 }
 
-const EXTENSIONS: [&str; 8] = ["png", "jpg", "jpeg", "tif", "tiff", "bmp", "pgm", "pnm"];
+/// Pictures that are looked at beforehand, for their size and their numbers.
+const SAMPLES: usize = 16;
 
 impl ImageSequence {
     /// Opens a data set (`cam0/`), a EuRoC folder (`mav0/cam0/`) or a plain folder of pictures.
@@ -49,6 +56,14 @@ impl ImageSequence {
     /// # Errors
     /// No folder, no pictures, no camera file and no field of view, or a malformed list of frames.
     pub fn open(folder: &Path, source: &CameraSource) -> Result<Self, DatasetError> {
+        Self::open_timed(folder, source, &FrameTimes::Folder)
+    }
+
+    /// As [`ImageSequence::open`], with time stamps from elsewhere.
+    ///
+    /// # Errors
+    /// As [`ImageSequence::open`], or a rate that is not a positive number.
+    pub fn open_timed(folder: &Path, source: &CameraSource, times: &FrameTimes) -> Result<Self, DatasetError> {
         if !folder.is_dir() {
             let cure = "give the path of a data set or of a folder of pictures".into();
             return Err(DatasetError::Missing { path: folder.into(), cure });
@@ -56,109 +71,98 @@ impl ImageSequence {
         let layout_root = [folder.join("mav0"), folder.into()].into_iter().find(|root| root.join("cam0").is_dir());
         let root = layout_root.clone().unwrap_or_else(|| folder.into());
         let pictures = if layout_root.is_some() { root.join("cam0") } else { root.clone() };
-        let frames = list_frames(&pictures)?;
+        let list = FrameList::read(&pictures, times)?;
         let sensor = match source {
             CameraSource::Folder => read_camera_sensor(&pictures.join("sensor.yaml"))?,
             CameraSource::File(path) => read_camera_sensor(path)?,
-            CameraSource::HorizontalFov(fov_rad) => sensor_from_fov(&frames[0], *fov_rad)?,
+            CameraSource::HorizontalFov(fov_rad) => sensor_from_fov(list.paths(), *fov_rad)?,
         };
-        Ok(ImageSequence { root, sensor, frames })
+        let mut notes = Vec::new();
+        let rate_hz = rate_hz(folder, times, (&list, &sensor), &mut notes)?;
+        let levels = levels(list.paths(), &sensor, &mut notes);
+        Ok(ImageSequence { root, sensor, frames: list.into_frames(rate_hz), levels, notes })
     }
 
-    /// Loads a picture as 8-bit grey, scaled by the camera's bits a pixel, and checks its size against the camera's.
+    /// Loads a picture as 8-bit grey, see [`GreyLevels`], and checks its size against the camera's.
     ///
     /// # Errors
-    /// Names a picture that cannot be read or is of the wrong size.
+    /// Names a picture that cannot be read, is of the wrong size, or has more than 2^26 pixels.
     pub fn load(&self, frame: &Frame) -> Result<GrayImage, DatasetError> {
-        let picture = to_eight_bits(open_picture(&frame.path)?, self.sensor.bits);
-        let camera = &self.sensor.camera;
-        if picture.dimensions() != (camera.width_px, camera.height_px) {
-            return Err(DatasetError::WrongSize {
-                path: frame.path.clone(),
-                found_width_px: picture.width(),
-                found_height_px: picture.height(),
-                width_px: camera.width_px,
-                height_px: camera.height_px,
-            });
+        let header = read_header(&frame.path)?;
+        let expected_px = self.sensor.camera.size_px();
+        if header.size_px != expected_px {
+            let path = frame.path.clone();
+            let ((found_width_px, found_height_px), (width_px, height_px)) = (header.size_px, expected_px);
+            return Err(DatasetError::WrongSize { path, found_width_px, found_height_px, width_px, height_px });
         }
-        Ok(picture)
+        Ok(self.levels.to_eight_bits(read_numbers(&frame.path, &header)?))
     }
 }
 
-fn open_picture(path: &Path) -> Result<image::DynamicImage, DatasetError> {
-    let unusable = |e: String| DatasetError::Unusable {
-        path: path.into(),
-        problem: format!("the picture cannot be read ({e}): remove it or put a whole one in its place"),
-    };
-    image::ImageReader::open(path)
-        .and_then(|reader| reader.with_guessed_format())
-        .map_err(DatasetError::io("read", path))?
-        .decode()
-        .map_err(|e| unusable(e.to_string()))
+/// Some of the pictures, spread over all, the first and the last among them.
+fn sample(paths: &[PathBuf]) -> impl Iterator<Item = &PathBuf> {
+    let count = SAMPLES.min(paths.len());
+    (0..count).map(move |k| &paths[k * (paths.len() - 1) / (count - 1).max(1)])
 }
 
-fn sensor_from_fov(frame: &Frame, fov_rad: f64) -> Result<CameraSensor, DatasetError> {
+/// A pinhole camera for the size that most of the sampled pictures have.
+fn sensor_from_fov(paths: &[PathBuf], fov_rad: f64) -> Result<CameraSensor, DatasetError> {
     if !(fov_rad > 0.0 && fov_rad < std::f64::consts::PI) {
         let problem = format!("a field of view of {} degrees is not between 0 and 180", fov_rad.to_degrees());
-        return Err(DatasetError::Unusable { path: frame.path.clone(), problem });
+        return Err(DatasetError::Unusable { path: paths[0].clone(), problem });
     }
-    let picture = open_picture(&frame.path)?;
-    let camera = Camera::from_fov(picture.width(), picture.height(), fov_rad);
+    let sizes: Vec<(u32, u32)> = sample(paths).filter_map(|path| read_header(path).ok()).map(|h| h.size_px).collect();
+    let votes = |size: &(u32, u32)| sizes.iter().filter(|other| *other == size).count();
+    // Of several with most votes, the first.
+    let most = sizes.iter().rev().max_by_key(|size| votes(size)).copied();
+    let (width_px, height_px) = match most {
+        Some(size) => size,
+        None => first_readable(paths)?.size_px,
+    };
+    let camera = Camera::from_fov(width_px, height_px, fov_rad);
     Ok(CameraSensor { camera, spacecraft_from_camera: Isometry3::identity(), rate_hz: None, bits: None })
 }
 
-fn list_frames(pictures: &Path) -> Result<Vec<Frame>, DatasetError> {
-    let list = pictures.join("data.csv");
-    let frames = if list.is_file() { listed_frames(&list)? } else { found_frames(pictures)? };
-    if frames.is_empty() {
-        let problem = format!("no pictures found ({}): check the folder", EXTENSIONS.join(", "));
-        return Err(DatasetError::Unusable { path: pictures.into(), problem });
-    }
-    Ok(frames)
+/// The first header that can be read; the first picture's problem if none can.
+fn first_readable(paths: &[PathBuf]) -> Result<Header, DatasetError> {
+    let first = read_header(&paths[0]);
+    if first.is_ok() { first } else { paths.iter().find_map(|path| read_header(path).ok()).map_or(first, Ok) }
 }
 
-fn listed_frames(list: &Path) -> Result<Vec<Frame>, DatasetError> {
-    let text = super::table::read_text(list)?;
-    let folder = list.with_file_name("data");
-    let mut frames: Vec<Frame> = Vec::new();
-    for (number, line) in text.lines().enumerate() {
-        if line.trim().is_empty() || line.starts_with('#') {
-            continue;
-        }
-        let malformed =
-            |problem: String| DatasetError::Malformed { path: list.into(), line: number as u64 + 1, problem };
-        let (time, name) =
-            line.split_once(',').ok_or_else(|| malformed("'timestamp [ns],filename' expected".into()))?;
-        let t_ns: i64 =
-            time.trim().parse().map_err(|_| malformed(format!("'{time}' is not a time stamp in whole nanoseconds")))?;
-        if frames.last().is_some_and(|last| last.t_ns >= t_ns) {
-            return Err(malformed(format!("time stamp {t_ns} ns does not come after the one before it")));
-        }
-        let path = folder.join(name.trim());
-        if !path.is_file() {
-            return Err(malformed(format!("{} does not exist", path.display())));
-        }
-        frames.push(Frame { index: frames.len(), t_ns, path });
+/// Pictures a second where nothing else tells their times.
+fn rate_hz(
+    folder: &Path,
+    times: &FrameTimes,
+    (list, sensor): (&FrameList, &CameraSensor),
+    notes: &mut Vec<String>,
+) -> Result<f64, DatasetError> {
+    if let FrameTimes::RateHz(rate_hz) = times {
+        let problem = format!("a rate of {rate_hz} pictures a second is not a positive number");
+        let unusable = || DatasetError::Unusable { path: folder.into(), problem };
+        return Some(*rate_hz).filter(|r| *r > 1e-9 && r.is_finite()).ok_or_else(unusable);
     }
-    Ok(frames)
+    if list.is_timed() {
+        return Ok(1.0);
+    }
+    notes.push(match sensor.rate_hz {
+        Some(rate_hz) => format!("no time stamps found: {rate_hz} pictures a second, as the camera file says"),
+        None => "no time stamps found: pictures are taken as 1 s apart; --rate-hz or --times states them".into(),
+    });
+    Ok(sensor.rate_hz.unwrap_or(1.0))
 }
 
-/// Pictures of a folder (or of its `data/`) in natural order, timed by names that are whole nanoseconds, else 1 s apart.
-fn found_frames(pictures: &Path) -> Result<Vec<Frame>, DatasetError> {
-    let folder = [pictures.join("data"), pictures.into()].into_iter().find(|f| f.is_dir()).expect("the second exists");
-    let mut paths: Vec<PathBuf> = std::fs::read_dir(&folder)
-        .map_err(DatasetError::io("list", &folder))?
-        .filter_map(|entry| entry.ok().map(|e| e.path()))
-        .filter(|path| {
-            let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
-            path.is_file() && EXTENSIONS.contains(&extension.as_str())
-        })
-        .collect();
-    paths.sort_by(|a, b| natord::compare(&a.to_string_lossy(), &b.to_string_lossy()).then_with(|| a.cmp(b)));
-    let times: Vec<Option<i64>> =
-        paths.iter().map(|p| p.file_stem().and_then(|s| s.to_str()).and_then(|s| s.parse().ok())).collect();
-    let timed = times.iter().all(Option::is_some) && times.windows(2).all(|w| w[0] < w[1]);
-    let long = times.iter().flatten().any(|t| *t >= 1_000_000);
-    let stamp = |index: usize| times[index].filter(|_| timed && long).unwrap_or(index as i64 * 1_000_000_000);
-    Ok(paths.into_iter().enumerate().map(|(index, path)| Frame { index, t_ns: stamp(index), path }).collect())
+/// Grey levels from a sample of the pictures, where those have more than 8 bits.
+fn levels(paths: &[PathBuf], sensor: &CameraSensor, notes: &mut Vec<String>) -> GreyLevels {
+    let deep = |path: &PathBuf| {
+        let needed = |h: &Header| match h.numbers {
+            Numbers::Shallow => false,
+            Numbers::Deep => sensor.bits.is_none(),
+            Numbers::Real => true,
+        };
+        let header = read_header(path).ok().filter(|h| needed(h) && h.size_px == sensor.camera.size_px())?;
+        read_numbers(path, &header).ok()
+    };
+    let mut numbers = NumberSample::default();
+    sample(paths).filter_map(deep).for_each(|picture| numbers.add(&picture));
+    GreyLevels::new(sensor.bits, numbers, notes)
 }

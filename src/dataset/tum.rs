@@ -69,7 +69,7 @@ pub fn read_tum(path: &Path) -> Result<Vec<StampedPose>, DatasetError> {
 }
 
 /// Seconds as text to whole nanoseconds, digit by digit, so that nothing is lost to floating point.
-fn seconds_to_ns(text: &str) -> Option<i64> {
+pub(super) fn seconds_to_ns(text: &str) -> Option<i64> {
     let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
     let plain = fraction.bytes().all(|b| b.is_ascii_digit()) && whole.parse::<i64>().is_ok();
     if !plain {

@@ -125,6 +125,11 @@ impl Camera {
         pixel_px.x >= low && pixel_px.y >= low && pixel_px.x <= w - margin_px && pixel_px.y <= h - margin_px
     }
 
+    /// Width and height in px.
+    pub fn size_px(&self) -> (u32, u32) {
+        (self.width_px, self.height_px)
+    }
+
     /// Mean focal length in px: one pixel is about `1 / mean_focal_px()` radians on the axis.
     pub fn mean_focal_px(&self) -> f64 {
         0.5 * (self.focal_px.x + self.focal_px.y)

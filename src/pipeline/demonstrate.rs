@@ -4,7 +4,7 @@ use super::{
     LandRequest, PipelineError, Progress, SynthesizeRequest, TrackRequest, TumbleRequest, evaluate_result, land,
     synthesize, track, tumble, write_page,
 };
-use crate::dataset::{CameraSource, write_text};
+use crate::dataset::{CameraSource, FrameTimes, write_text};
 use crate::evaluation::Metrics;
 use crate::navigation::landing::LandingConfig;
 use crate::navigation::tumbling::{Estimator, TumblingConfig};
@@ -90,6 +90,7 @@ fn demonstrate_tracking(out: &Path, images: &Path, progress: &dyn Progress) -> R
         folder: images.into(),
         out: out.join("tracking"),
         camera: CameraSource::Folder,
+        times: FrameTimes::Folder,
         every: 1,
         frames: None,
         config: FrontEndConfig::default(),

@@ -1,6 +1,7 @@
 //! A descent: pictures and IMU in, the lander's state out.
 
-use super::track::{run_front_end, write_front_end, write_overlays};
+use super::front_end_files::{write_front_end, write_pictures};
+use super::track::run_front_end;
 use super::{PipelineError, Progress, Summary};
 use crate::dataset::{
     CameraSource, ImageSequence, StampedPose, read_designated, read_imu, read_initial_state, write_tum,
@@ -106,7 +107,7 @@ fn write_result(
     (front_end, result): (&FrontEnd, &LandingResult),
 ) -> Result<(), PipelineError> {
     write_front_end(out, front_end)?;
-    write_overlays(out, sequence, front_end)?;
+    write_pictures(out, sequence, front_end)?;
     write_estimate_csv(&out.join("estimate.csv"), result)?;
     write_covariance_csv(&out.join("covariance.csv"), result)?;
     let pose = |e: &LandingEpoch| StampedPose { t_ns: e.t_ns, reference_from_moving: e.site_from_lander };

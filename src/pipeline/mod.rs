@@ -6,6 +6,7 @@ mod doctor;
 mod error;
 mod evaluate;
 mod export;
+mod front_end_files;
 mod land;
 mod page;
 mod progress;
@@ -25,13 +26,13 @@ pub use land::{LandRequest, land};
 pub use page::write_page;
 pub use progress::{Progress, Silent};
 pub use reference::scenario_reference;
-pub use summary::Summary;
+pub use summary::{Summary, UnusedFrame};
 pub use synthesize::{SynthesizeRequest, Synthesized, synthesize};
 pub use track::{TrackRequest, track};
 pub use tumble::{TumbleRequest, tumble};
 
 // Settings that a caller of the stories chooses.
-pub use crate::dataset::CameraSource;
+pub use crate::dataset::{CameraSource, FrameTimes};
 pub use crate::navigation::landing::{FilterKind, LandingConfig};
 pub use crate::navigation::landmark::Selector;
 pub use crate::navigation::tumbling::{Estimator, TumblingConfig};

@@ -1,7 +1,8 @@
 //! `summary.json`: what a result is and how it came about.
 
 use super::PipelineError;
-use crate::dataset::write_text;
+use crate::dataset::{Frame, write_text};
+use crate::vision::{FrameReport, FrameStatus};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -24,8 +25,41 @@ pub struct Summary {
     pub last: serde_json::Value,
     /// Wall time of each stage in ms.
     pub timing_ms: BTreeMap<String, f64>,
+    /// Frames that could not be used, and why.
+    pub frames_not_used: Vec<UnusedFrame>,
     /// What the user should know: coasted intervals, undetermined quantities.
     pub notes: Vec<String>,
+}
+
+/// A frame that could not be used.
+#[derive(Debug, Clone, Serialize)]
+pub struct UnusedFrame {
+    /// Position in the sequence, from 0.
+    pub index: usize,
+    /// Time in ns.
+    pub t_ns: i64,
+    /// The picture's file.
+    pub file: String,
+    /// What became of it.
+    pub status: FrameStatus,
+    /// What is wrong with the file and what to do, if anything.
+    pub problem: Option<String>,
+}
+
+impl UnusedFrame {
+    pub(super) fn new(report: &FrameReport, frame: &Frame) -> Self {
+        UnusedFrame {
+            index: report.index,
+            t_ns: report.t_ns,
+            file: frame.path.display().to_string(),
+            status: report.status,
+            problem: report.problem.clone(),
+        }
+    }
+
+    pub(super) fn in_words(&self) -> String {
+        self.problem.clone().unwrap_or_else(|| format!("{}: {}", self.file, self.status.word()))
+    }
 }
 
 impl Summary {
@@ -39,6 +73,7 @@ impl Summary {
             counts: BTreeMap::new(),
             last: serde_json::Value::Null,
             timing_ms: BTreeMap::new(),
+            frames_not_used: Vec::new(),
             notes: Vec::new(),
         }
     }

@@ -1,16 +1,12 @@
 //! Any folder of pictures to tracks and relative rotations.
 
+use super::front_end_files::{write_front_end, write_pictures};
+use super::summary::UnusedFrame;
 use super::{PipelineError, Progress, Summary};
-use crate::dataset::{CameraSource, DatasetError, ImageSequence, StampedPose, write_atomically, write_tum};
-use crate::vision::{
-    FrameReport, FrontEnd, FrontEndConfig, PairStatus, TrackInputs, TrackObservation, draw_tracks, track_sequence,
-    write_relative_rotations, write_tracks,
-};
-use image::RgbImage;
-use nalgebra::{Isometry3, UnitQuaternion};
-use std::io::Cursor;
+use crate::dataset::{CameraSource, FrameTimes, ImageSequence};
+use crate::vision::{FrameReport, FrameStatus, FrontEnd, FrontEndConfig, TrackInputs, track_sequence};
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// What to track, and where the result goes.
@@ -22,6 +18,8 @@ pub struct TrackRequest {
     pub out: PathBuf,
     /// Where the camera's parameters come from.
     pub camera: CameraSource,
+    /// Where the time stamps come from.
+    pub times: FrameTimes,
     /// Take every n-th picture.
     pub every: usize,
     /// Pictures to take; all if `None`.
@@ -30,12 +28,13 @@ pub struct TrackRequest {
     pub config: FrontEndConfig,
 }
 
-/// Tracks a sequence and writes tracks, rotations, the chain of attitudes, overlays and the summary.
+/// Tracks a sequence and writes tracks, rotations, the chains of attitudes, overlays and the summary. Pictures that cannot
+/// be used are named in the summary, and tracking goes on around them.
 ///
 /// # Errors
-/// Fewer than two pictures, an unreadable one, no camera, or a file that cannot be written.
+/// Fewer than two pictures that can be read, no camera, or a file that cannot be written.
 pub fn track(request: &TrackRequest, progress: &dyn Progress) -> Result<Summary, PipelineError> {
-    let sequence = ImageSequence::open(&request.folder, &request.camera)?;
+    let sequence = ImageSequence::open_timed(&request.folder, &request.camera, &request.times)?;
     let frames = checked_frames(request.frames.clone(), sequence.frames.len())?;
     let inputs = TrackInputs { frames, every: request.every, rotation_prior: None, designated: None };
     let options = serde_json::json!({
@@ -45,8 +44,13 @@ pub fn track(request: &TrackRequest, progress: &dyn Progress) -> Result<Summary,
     });
     let mut summary = Summary::new("tracking", options);
     let front_end = run_front_end(&sequence, &request.config, &inputs, (progress, &mut summary))?;
-    write_front_end(&request.out, &front_end)?;
-    write_overlays(&request.out, &sequence, &front_end)?;
+    let start = Instant::now();
+    let chains = write_front_end(&request.out, &front_end)?;
+    summary.last = serde_json::json!({ "attitude_chains": chains });
+    summary.timing_ms.insert("files".into(), start.elapsed().as_secs_f64() * 1e3);
+    let start = Instant::now();
+    write_pictures(&request.out, &sequence, &front_end)?;
+    summary.timing_ms.insert("pictures".into(), start.elapsed().as_secs_f64() * 1e3);
     summary.write(&request.out)?;
     Ok(summary)
 }
@@ -74,15 +78,35 @@ pub(super) fn run_front_end(
     summary.timing_ms.insert("front_end".into(), start.elapsed().as_secs_f64() * 1e3);
     summary.timing_ms.extend(mean_stage_ms(&front_end));
     summary.t0_ns = front_end.frames.first().map(|f| f.t_ns);
-    let accepted = front_end.rotations.iter().filter(|r| r.status == PairStatus::Ok).count();
-    let counts = [
-        ("frames", front_end.frames.len()),
-        ("observations", front_end.observations.len()),
-        ("pairs", front_end.rotations.len()),
-        ("pairs_ok", accepted),
-    ];
-    summary.counts.extend(counts.map(|(name, count)| (name.to_string(), count)));
+    note_outcomes(sequence, &front_end, summary);
     Ok(front_end)
+}
+
+/// Counts frames and pairs by their outcome, and names the frames that could not be used.
+fn note_outcomes(sequence: &ImageSequence, front_end: &FrontEnd, summary: &mut Summary) {
+    let unused = front_end.frames.iter().filter(|f| f.status != FrameStatus::Ok);
+    summary.frames_not_used = unused.map(|f| UnusedFrame::new(f, &sequence.frames[f.index])).collect();
+    let count = |counts: &mut std::collections::BTreeMap<String, usize>, name: &str| {
+        *counts.entry(name.replace('-', "_")).or_default() += 1;
+    };
+    let counts = &mut summary.counts;
+    counts.insert("observations".into(), front_end.observations.len());
+    counts.insert("pairs_ok".into(), 0);
+    for frame in &front_end.frames {
+        count(counts, "frames");
+        count(counts, &format!("frames_{}", frame.status.word()));
+    }
+    for pair in &front_end.rotations {
+        count(counts, "pairs");
+        count(counts, &format!("pairs_{}", pair.status.word()));
+    }
+    summary.notes.extend(sequence.notes.iter().cloned());
+    if let Some(first) = summary.frames_not_used.first() {
+        let (number, problem) = (summary.frames_not_used.len(), first.in_words());
+        summary
+            .notes
+            .push(format!("{number} of {} frames could not be used; the first: {problem}", front_end.frames.len()));
+    }
 }
 
 /// Mean time a frame of each stage of the front end, ms.
@@ -98,64 +122,4 @@ fn mean_stage_ms(front_end: &FrontEnd) -> Vec<(String, f64)> {
         mean("match", |f| f.match_ms),
         mean("rotation", |f| f.rotation_ms),
     ]
-}
-
-/// Writes `tracks.csv`, `relative_rotations.csv` and `attitude_chain.tum`.
-pub(super) fn write_front_end(out: &Path, front_end: &FrontEnd) -> Result<(), PipelineError> {
-    write_tracks(&out.join("tracks.csv"), &front_end.observations)?;
-    write_relative_rotations(&out.join("relative_rotations.csv"), &front_end.rotations)?;
-    Ok(write_tum(&out.join("attitude_chain.tum"), &attitude_chain(front_end))?)
-}
-
-/// Attitude of the camera in its own first axes, chained over consecutive pairs; ends at the first broken link.
-fn attitude_chain(front_end: &FrontEnd) -> Vec<StampedPose> {
-    let Some(first) = front_end.frames.first() else { return Vec::new() };
-    let mut first_from_camera = UnitQuaternion::identity();
-    let mut chain = vec![StampedPose { t_ns: first.t_ns, reference_from_moving: Isometry3::identity() }];
-    for link in front_end.frames.windows(2) {
-        let pair = front_end
-            .rotations
-            .iter()
-            .find(|r| r.t_ns_from == link[0].t_ns && r.t_ns_to == link[1].t_ns && r.status == PairStatus::Ok);
-        let Some(pair) = pair else { break };
-        first_from_camera *= pair.camera_to_from_camera_from.inverse();
-        let pose = Isometry3::from_parts(nalgebra::Translation3::identity(), first_from_camera);
-        chain.push(StampedPose { t_ns: link[1].t_ns, reference_from_moving: pose });
-    }
-    chain
-}
-
-/// Number of frames that get an overlay picture.
-const OVERLAYS: usize = 6;
-
-/// Draws the tracks into a few frames spread over the sequence: `overlays/<t_ns>.png`.
-pub(super) fn write_overlays(out: &Path, sequence: &ImageSequence, front_end: &FrontEnd) -> Result<(), PipelineError> {
-    let frames = &front_end.frames;
-    let last = frames.len().saturating_sub(1);
-    let mut chosen: Vec<usize> = (0..OVERLAYS).map(|i| 1.max(i * last / (OVERLAYS - 1))).collect();
-    chosen.dedup();
-    for index in chosen.into_iter().filter(|i| *i < frames.len()) {
-        let frame = &sequence.frames[frames[index].index];
-        let now = observations_at(front_end, frames[index].t_ns);
-        let before = observations_at(front_end, frames[index - 1].t_ns);
-        let before_px = before.iter().map(|o| (o.track_id, o.pixel_px)).collect();
-        let designated = now.iter().find(|o| o.track_id == TrackObservation::DESIGNATED);
-        let overlay = draw_tracks(&sequence.load(frame)?, now, &before_px, designated);
-        write_rgb_png(&out.join(format!("overlays/{}.png", frame.t_ns)), &overlay)?;
-    }
-    Ok(())
-}
-
-fn observations_at(front_end: &FrontEnd, t_ns: i64) -> &[TrackObservation] {
-    let first = front_end.observations.partition_point(|o| o.t_ns < t_ns);
-    let end = front_end.observations.partition_point(|o| o.t_ns <= t_ns);
-    &front_end.observations[first..end]
-}
-
-fn write_rgb_png(path: &Path, picture: &RgbImage) -> Result<(), PipelineError> {
-    let mut bytes = Cursor::new(Vec::new());
-    picture
-        .write_to(&mut bytes, image::ImageFormat::Png)
-        .map_err(|e| DatasetError::Unusable { path: path.into(), problem: e.to_string() })?;
-    Ok(write_atomically(path, |w| w.write_all(bytes.get_ref()))?)
 }

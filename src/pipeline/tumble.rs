@@ -1,6 +1,7 @@
 //! A tumbling small body: pictures in; attitude, rate and inertia ratios out.
 
-use super::track::{checked_frames, run_front_end, write_front_end, write_overlays};
+use super::front_end_files::{write_front_end, write_pictures};
+use super::track::{checked_frames, run_front_end};
 use super::{PipelineError, Progress, Summary};
 use crate::dataset::{CameraSource, ImageSequence, StampedPose, write_tum};
 use crate::navigation::tumbling::{
@@ -63,7 +64,7 @@ fn write_result(
     (front_end, result): (&FrontEnd, &TumblingResult),
 ) -> Result<(), PipelineError> {
     write_front_end(out, front_end)?;
-    write_overlays(out, sequence, front_end)?;
+    write_pictures(out, sequence, front_end)?;
     write_estimate_csv(&out.join("estimate.csv"), result)?;
     write_covariance_csv(&out.join("covariance.csv"), result)?;
     let pose = |e: &TumblingEpoch| StampedPose {

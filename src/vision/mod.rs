@@ -7,6 +7,7 @@
 
 #[cfg(feature = "vision")]
 mod adjacent_pair;
+mod attitude_chain;
 #[cfg(feature = "vision")]
 mod candidates;
 #[cfg(feature = "vision")]
@@ -69,6 +70,7 @@ mod tracks_file;
 #[cfg(feature = "vision")]
 mod usac;
 
+pub use attitude_chain::attitude_chains;
 #[cfg(feature = "vision")]
 pub use opencv_bridge::opencv_version;
 pub use overlay::{contact_sheet, draw_tracks};

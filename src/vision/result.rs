@@ -79,6 +79,18 @@ pub enum FrameStatus {
     Unreadable,
 }
 
+impl FrameStatus {
+    /// The outcome's word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            FrameStatus::Ok => "ok",
+            FrameStatus::NoFeatures => "no-features",
+            FrameStatus::WrongSize => "wrong-size",
+            FrameStatus::Unreadable => "unreadable",
+        }
+    }
+}
+
 /// Rotation between two frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RelativeRotation {

@@ -38,8 +38,10 @@ fn numbers_are_stored_as_they_are() {
 #[test]
 fn the_front_end_sees_the_whole_range_of_any_depth() {
     assert_eq!(as_read(&twelve_bits(), "bits: 12\n"), [0, 0, 1, 128, 255, 255]);
-    // Without the key the file's own 16 bits count: the picture would be nearly black.
-    assert_eq!(as_read(&twelve_bits(), ""), [0, 0, 0, 8, 16, 16]);
+    // Without the key the numbers themselves tell: the largest is 4095.
+    assert_eq!(as_read(&twelve_bits(), ""), as_read(&twelve_bits(), "bits: 12\n"));
+    // A key that states all 16 bits is believed, and the picture is nearly black.
+    assert_eq!(as_read(&twelve_bits(), "bits: 16\n"), [0, 0, 0, 8, 16, 16]);
     let four = GreyPicture { bits: 4, numbers: vec![0, 1, 7, 8, 14, 15], ..twelve_bits() };
     assert_eq!(as_read(&four, "bits: 4\n"), [0, 17, 119, 136, 238, 255]);
     let sixteen = GreyPicture { bits: 16, numbers: vec![0, 257, 0x8080, 65_000, 65_534, 65_535], ..twelve_bits() };
