@@ -10,7 +10,7 @@ MULTIARCH := $(shell uname -m)-linux-gnu
 export OPENCV_INCLUDE_PATHS ?= /usr/include/opencv4,/usr/include/$(MULTIARCH)/opencv4
 export OPENCV_LINK_PATHS ?= /usr/lib/$(MULTIARCH)
 
-.PHONY: demo test accuracy bench lint packages
+.PHONY: demo test accuracy fuzz bench lint packages
 
 # Install, build, render and navigate both missions, write out/demo/report.html.
 demo: packages
@@ -24,6 +24,10 @@ test: packages
 # Long accuracy campaigns against their bounds, as a table.
 accuracy: packages
 	cargo test --test main accuracy -- --ignored --nocapture --test-threads=1
+
+# Every reader of files against damaged ones, ten minutes each (FUZZ_SECONDS), from a new seed each time (FUZZ_SEED).
+fuzz: packages
+	cargo test --test main fuzz:: -- --ignored --nocapture
 
 # Criterion benchmarks of the renderer and the front end.
 bench: packages

@@ -546,7 +546,7 @@ fn bad_lists_of_frames_are_refused_with_the_line() {
         complaint(ImageSequence::open(dir.path(), &CameraSource::Folder), &list, line, &[word]);
     }
     fs::write(&list, "#t\n").expect("write");
-    complaint(ImageSequence::open(dir.path(), &CameraSource::Folder), &dir.path().join("cam0"), None, &["no pictures"]);
+    complaint(ImageSequence::open(dir.path(), &CameraSource::Folder), &list, None, &["it lists no pictures"]);
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod dataset;
 mod end_to_end;
 mod evaluation;
 mod filter;
+mod fuzz;
 mod geometry;
 mod landing;
 mod landmark;

@@ -97,12 +97,15 @@ fn listed(list: &Path, folder: &Path) -> Result<FrameList, DatasetError> {
         times_ns.push(t_ns);
         paths.push(place(name, list, folder));
     }
-    if !paths.is_empty() && !paths.iter().any(|path| path.is_file()) {
-        let problem = format!(
-            "none of its {} pictures exists, such as {}: check the folder and the names",
-            paths.len(),
-            paths[0].display()
-        );
+    if !paths.iter().any(|path| path.is_file()) {
+        let problem = match paths.first() {
+            Some(path) => format!(
+                "none of its {} pictures exists, such as {}: check the folder and the names",
+                paths.len(),
+                path.display()
+            ),
+            None => "it lists no pictures: write a line 'timestamp [ns],filename' for each, or remove the list".into(),
+        };
         return Err(DatasetError::Unusable { path: list.into(), problem });
     }
     Ok(FrameList { paths, times_ns: Some(times_ns) })

@@ -11,8 +11,8 @@ use rayon::prelude::*;
 /// The centre of rotation with its covariance, in the fixed-centre mode.
 type Center<'a> = Option<&'a (Unit<Vector3<f64>>, Matrix2<f64>)>;
 
-/// Solves the keyframe pairs of all spans, in order of the first picture, then of the span. A pair whose chained rotation
-/// is unknown or too large, or with too few shared tracks, is left out.
+/// Solves the keyframe pairs of all spans, in order of the first picture, then of the span. A pair whose rotation is too
+/// large, or with too few shared tracks, is left out; so is one that spans a link without a rotation, unless it is solved.
 pub(super) fn keyframe_rotations(
     job: &Job,
     chain: &Chain,
@@ -37,16 +37,17 @@ fn keyframe(
     numbers: &Tracks,
     ((from, to), center): ((usize, usize), Center<'_>),
 ) -> Result<Option<RelativeRotation>, VisionError> {
-    let Some(chained) = chained_rotation(chain, from, to) else { return Ok(None) };
+    let chained = chained_rotation(chain, from, to);
+    let too_far = |rotation: &UnitQuaternion<f64>| rotation.angle() > job.config.keyframe_max_angle_rad;
     let shared = numbers.shared(from, to);
-    if chained.angle() > job.config.keyframe_max_angle_rad || shared.len() < job.config.rotation.min_matches {
+    if chained.as_ref().is_some_and(too_far) || shared.len() < job.config.rotation.min_matches {
         return Ok(None);
     }
     let (a, b) = (&chain.frames[from], &chain.frames[to]);
     let pixels = PairPixels::from_shared(&shared);
     let solution: PairSolution = match center {
         None => {
-            let hints = PairHints { camera_to_from_camera_from: Some(chained), normal_in_from: None };
+            let hints = PairHints { camera_to_from_camera_from: chained, normal_in_from: None };
             relative_rotation(pixels.view(), job.camera(), &hints, &job.config.rotation)?
         }
         Some((direction, covariance)) => {
@@ -57,10 +58,14 @@ fn keyframe(
                 rotation: &job.config.rotation,
             };
             let dt_s = (b.report.t_ns - a.report.t_ns) as f64 * 1e-9;
-            let pair = CenteredPair { matches: pixels.view(), dt_s, predicted: Some(chained) };
+            let pair = CenteredPair { matches: pixels.view(), dt_s, predicted: chained };
             rotation_about_center(&pair, (direction, covariance), &problem)
         }
     };
+    let unsure = solution.status != PairStatus::Ok || too_far(&solution.camera_to_from_camera_from);
+    if chained.is_none() && unsure {
+        return Ok(None);
+    }
     let times = (a.report.t_ns, b.report.t_ns);
     Ok(Some(as_relative_rotation(times, pixels.sigma_px.len(), &solution)))
 }

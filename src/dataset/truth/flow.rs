@@ -46,8 +46,8 @@ pub fn read_flow(path: &Path) -> Result<OpticalFlow, DatasetError> {
     }
     let word = |at: usize| [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]];
     let (width_px, height_px) = (u32::from_le_bytes(word(4)), u32::from_le_bytes(word(8)));
-    let expected_bytes = HEADER_BYTES as u64 + 8 * u64::from(width_px) * u64::from(height_px);
-    if bytes.len() as u64 != expected_bytes {
+    let expected_bytes = HEADER_BYTES as u128 + 8 * u128::from(width_px) * u128::from(height_px);
+    if bytes.len() as u128 != expected_bytes {
         return Err(unusable(&format!("it has {} bytes, {expected_bytes} expected: make it anew", bytes.len())));
     }
     let motion = |at: usize| Vector2::new(f32::from_le_bytes(word(at)), f32::from_le_bytes(word(at + 4)));

@@ -13,7 +13,7 @@ type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
 /// Source: OGC 19-008r4, "GeoTIFF standard 1.1", 2019; no-data from GDAL's tag 42113.
 pub(super) fn read(bytes: &[u8], wanted: bool) -> Result<FileRaster, String> {
     let unreadable = |e: tiff::TiffError| format!("the TIFF file cannot be read: {e}; is it cut short?");
-    let mut tiff = Decoder::new(Cursor::new(bytes)).map_err(unreadable)?.with_limits(Limits::unlimited());
+    let mut tiff = Decoder::new(Cursor::new(bytes)).map_err(unreadable)?.with_limits(limits());
     let (columns, rows) = tiff.dimensions().map_err(unreadable)?;
     let color = tiff.colortype().map_err(unreadable)?;
     if color.num_samples() != 1 {
@@ -30,6 +30,15 @@ pub(super) fn read(bytes: &[u8], wanted: bool) -> Result<FileRaster, String> {
     }
     let georeference = if wanted { georeference(&mut tiff)? } else { None };
     Ok(FileRaster { columns: columns as usize, values, georeference })
+}
+
+/// Room for the largest raster, and for no more: a damaged file may ask for any amount of memory.
+fn limits() -> Limits {
+    const MOST_BYTES: usize = size_of::<f64>() * MOST_POSTS;
+    let mut limits = Limits::default();
+    (limits.decoding_buffer_size, limits.intermediate_buffer_size) = (MOST_BYTES, MOST_BYTES);
+    limits.ifd_value_size = MOST_BYTES / 16;
+    limits
 }
 
 fn as_f64(image: DecodingResult) -> Vec<f64> {
