@@ -1,6 +1,9 @@
 //! The command line as a user meets it: exit codes, one clear error that names the file and the cure, nothing
 //! half-written.
 
+mod folders;
+mod outcomes;
+
 use assert_cmd::Command;
 use image::{GrayImage, Luma};
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use opnav::dataset::truth::read_flow;
 use opnav::dataset::{CameraSource, ImageSequence};
-use opnav::scene::{Raster, RasterFile};
+use opnav::scene::{Mesh, Raster, RasterFile};
 
 fn folder() -> tempfile::TempDir {
     tempfile::tempdir().expect("a temporary folder")
@@ -30,6 +30,23 @@ fn a_geotiff_with_an_endless_tag() {
     std::fs::write(dir.path().join("map.tif"), bytes).expect("a file");
     let error = Raster::read(&RasterFile::from_path("map.tif"), dir.path()).expect_err("refused").to_string();
     assert!(error.contains("map.tif"), "{error}");
+}
+
+/// The number of a texture coordinate overflowed in the library that reads the file.
+#[test]
+fn a_shape_with_an_impossible_texture_number() {
+    let dir = folder();
+    let path = dir.path().join("body.obj");
+    let whole = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
+    std::fs::write(&path, format!("{whole}f 1/1 2/1 3/-9223372036854775808\n")).expect("a file");
+    let error = Mesh::read(&path, 1.0).expect_err("refused").to_string();
+    assert!(error.ends_with("body.obj, line 5: '3/-9223372036854775808' is not a corner of a face"), "{error}");
+    for odd in ["f 1/ 2/1 3/1\n", "f 1/2147483647 2/1 3/1\n", "f 1/-2 2/1 3/1\n", "f 1/0 2/1 3/1\n"] {
+        std::fs::write(&path, format!("{whole}{odd}")).expect("a file");
+        if let Err(error) = Mesh::read(&path, 1.0) {
+            assert!(error.to_string().contains("body.obj"), "{error}");
+        }
+    }
 }
 
 /// The folder was blamed.

@@ -68,8 +68,13 @@ fn check_vertex<'a>(fields: impl Iterator<Item = &'a str>) -> Result<(), String>
 fn largest_number<'a>(fields: impl Iterator<Item = &'a str>, vertices: i64) -> Result<i64, String> {
     let (mut count, mut largest) = (0, 0);
     for field in fields {
-        let text = field.split('/').next().unwrap_or_default();
-        let number = text.parse::<i64>().map_err(|_| format!("'{field}' is not a corner of a face"))?;
+        let mut numbers = field.split('/');
+        let fault = || format!("'{field}' is not a corner of a face");
+        let number = numbers.next().and_then(|text| text.parse::<i64>().ok()).ok_or_else(fault)?;
+        // The numbers of texture coordinates and normals, either of which may be left out.
+        if !numbers.all(|text| text.is_empty() || text.parse::<i32>().is_ok()) {
+            return Err(fault());
+        }
         let absolute = if number < 0 { vertices.saturating_add(number).saturating_add(1) } else { number };
         if absolute < 1 {
             return Err(format!("a face names vertex {number}, which does not exist: numbers start from 1"));
