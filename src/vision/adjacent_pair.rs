@@ -25,13 +25,13 @@ impl Pair {
         self.solution.status == PairStatus::Degenerate
     }
 
-    /// The pair without what only solving it again needs: a long sequence keeps little of each pair.
-    pub(super) fn without_pixels(mut self) -> Self {
-        (self.matches, self.links) = self.verified().unzip();
-        if !self.matches.is_empty() {
-            self.solution.inliers = vec![true; self.matches.len()];
+    /// Drops what only tracks need, and what only solving it again needs unless it is open: a long sequence keeps little
+    /// of each pair.
+    pub(super) fn forget_matches(&mut self) {
+        (self.matches, self.links) = (Vec::new(), Vec::new());
+        if !self.is_open() {
+            self.pixels = PairPixels::default();
         }
-        Pair { pixels: PairPixels::default(), ..self }
     }
 
     /// Matches that may extend tracks, with their links.

@@ -4,7 +4,7 @@ use super::adjacent_pair::{Pair, solve_sharp_pair};
 use super::designated::carry_designated;
 use super::fixed_center::{CenterProblem, CenteredPair, rotations_about_center};
 use super::frame_features::FrameFeatures;
-use super::front_end::{FrameReport, FrontEnd, RotationPrediction, TrackInputs};
+use super::front_end::{DesignatedStep, FrameReport, FrontEnd, RotationPrediction, TrackInputs};
 use super::keyframes::keyframe_rotations;
 use super::pair_order::rotations_in_order;
 use super::rivals::settle_rivals;
@@ -68,26 +68,21 @@ pub fn track_sequence(
     opencv::core::set_num_threads(1).map_err(VisionError::opencv("set its number of threads"))?;
     let mut chosen = chosen_frames(sequence, inputs)?;
     let job = Job { sequence, config, prior: inputs.rotation_prior };
-    let mut chain = link(&job, &chosen, progress)?;
+    let mut tracks = Tracks::new();
+    let mut chain = link(&job, &chosen, &mut tracks, progress)?;
     let reports = all_reports(&chain)?;
     chosen.retain(|frame| chain.frames.binary_search_by_key(&frame.index, |f| f.report.index).is_ok());
     let center = match config.mode {
         FrontEndMode::Auto => settle_rivals(&job, &mut chain)?,
-        FrontEndMode::FixedCenter => solve_about_center(&job, &mut chain),
+        FrontEndMode::FixedCenter => solve_about_center(&job, &mut chain, &mut tracks),
     };
-    let tracks = chain_tracks(&chain);
     let keyframes = keyframe_rotations(&job, &chain, &tracks, center.as_ref())?;
     let rotations = rotations_in_order(&chain, &reports, keyframes);
     let designated = match &inputs.designated {
         Some(start) => carry_designated(&job, &chosen, &tracks, start)?,
         None => Vec::new(),
     };
-    let mut observations = Vec::new();
-    for (k, frame) in chain.frames.iter().enumerate() {
-        let t_ns = frame.report.t_ns;
-        observations.extend(designated.iter().filter(|d| d.t_ns == t_ns).map(|d| d.observation()));
-        observations.extend(tracks.observations(k, t_ns, &frame.features));
-    }
+    let observations = with_designated(tracks.into_observations(), &designated);
     Ok(FrontEnd {
         observations,
         rotations,
@@ -108,8 +103,14 @@ fn chosen_frames<'a>(sequence: &'a ImageSequence, inputs: &TrackInputs) -> Resul
     if chosen.len() < 2 { Err(VisionError::TooFewPictures { found: chosen.len() }) } else { Ok(chosen) }
 }
 
-/// Features of all pictures and matches of adjacent ones, a chunk at a time.
-fn link(job: &Job, chosen: &[&Frame], progress: &(dyn Fn(usize) + Sync)) -> Result<Chain, VisionError> {
+/// Features of all pictures, matches of adjacent ones and tracks along those, a chunk at a time. About a centre, what
+/// matches agree is only known when all pairs are solved together: tracks wait for that.
+fn link(
+    job: &Job,
+    chosen: &[&Frame],
+    tracks: &mut Tracks,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Chain, VisionError> {
     let done = std::sync::atomic::AtomicUsize::new(0);
     let mut chain = Chain { frames: Vec::new(), pairs: Vec::new(), lost: Vec::new() };
     for chunk in chosen.chunks(CHUNK) {
@@ -127,19 +128,24 @@ fn link(job: &Job, chosen: &[&Frame], progress: &(dyn Fn(usize) + Sync)) -> Resu
         }
         let open: Vec<&[FrameFeatures]> = chain.frames[first..].windows(2).collect();
         let pairs = open.par_iter().map(|w| solve_sharp_pair(job, &w[0], &w[1])).collect::<Result<Vec<_>, _>>()?;
-        let may_be_solved_again = |p: &Pair| job.config.mode == FrontEndMode::FixedCenter || p.is_open();
-        chain.pairs.extend(pairs.into_iter().map(|p| if may_be_solved_again(&p) { p } else { p.without_pixels() }));
+        chain.pairs.extend(pairs);
         let last = chain.frames.len().saturating_sub(1);
         chain.frames[first..last].iter_mut().for_each(FrameFeatures::forget_picture);
+        if job.config.mode == FrontEndMode::Auto {
+            chain_tracks(&mut chain, first, tracks);
+        }
     }
     for (k, pair) in chain.pairs.iter().enumerate() {
         let report = &mut chain.frames[k + 1].report;
         (report.matches, report.match_ms, report.rotation_ms) = (pair.match_count, pair.match_ms, pair.rotation_ms);
     }
+    if let Some(last) = chain.frames.last().filter(|_| job.config.mode == FrontEndMode::Auto) {
+        tracks.report(last.report.t_ns, &last.features);
+    }
     Ok(chain)
 }
 
-fn solve_about_center(job: &Job, chain: &mut Chain) -> Center {
+fn solve_about_center(job: &Job, chain: &mut Chain, tracks: &mut Tracks) -> Center {
     let camera = job.camera();
     let middle = Vector2::new(f64::from(camera.width_px), f64::from(camera.height_px)) * 0.5;
     let guesses: Vec<Vector2<f64>> = chain.frames.iter().filter_map(|f| f.centroid_px).collect();
@@ -167,16 +173,32 @@ fn solve_about_center(job: &Job, chain: &mut Chain) -> Center {
         let hopeless = pair.solution.status == PairStatus::NoFeatures;
         pair.solution = if hopeless { PairSolution::failed(PairStatus::NoFeatures, 0) } else { solution };
     }
+    chain_tracks(chain, 0, tracks);
+    if let Some(last) = chain.frames.last() {
+        tracks.report(last.report.t_ns, &last.features);
+    }
     Some((solved.center_in_camera, solved.center_covariance_rad2))
 }
 
-fn chain_tracks(chain: &Chain) -> Tracks {
-    let mut tracks = Tracks::new(chain.frames.iter().map(|f| f.features.len()));
-    for (k, pair) in chain.pairs.iter().enumerate() {
-        let features = (chain.frames[k].features.as_slice(), chain.frames[k + 1].features.as_slice());
-        tracks.chain(k, features, pair.verified());
+/// Extends the tracks along all pairs from number `first` on, and drops what is then done with.
+fn chain_tracks(chain: &mut Chain, first: usize, tracks: &mut Tracks) {
+    for (k, pair) in chain.pairs.iter_mut().enumerate().skip(first) {
+        let (here, next) = (&chain.frames[k], &chain.frames[k + 1]);
+        tracks.chain(here.report.t_ns, (&here.features, &next.features), pair.verified());
+        pair.forget_matches();
+        chain.frames[k].features = Vec::new();
     }
-    tracks
+}
+
+/// The observations with those of the designated point, first in each picture.
+fn with_designated(observations: Vec<TrackObservation>, designated: &[DesignatedStep]) -> Vec<TrackObservation> {
+    if designated.is_empty() {
+        return observations;
+    }
+    let mut all: Vec<TrackObservation> = designated.iter().map(DesignatedStep::observation).collect();
+    all.extend(observations);
+    all.sort_by_key(|o| (o.t_ns, o.track_id));
+    all
 }
 
 /// Reports of all pictures in order; refused where fewer than two could be loaded.
@@ -216,7 +238,7 @@ pub(super) fn as_relative_rotation(
     }
 }
 
-impl super::front_end::DesignatedStep {
+impl DesignatedStep {
     /// As an observation of track [`TrackObservation::DESIGNATED`].
     pub fn observation(&self) -> TrackObservation {
         TrackObservation {

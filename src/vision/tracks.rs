@@ -22,67 +22,83 @@ pub(super) struct TrackPoint {
 /// A point in two pictures, with the 1σ of the second pixel given the first, px.
 pub(super) type SharedPoint = (Vector2<f64>, Vector2<f64>, f64);
 
-/// The track of every feature of every picture; `None` for features that never matched.
+/// Tracks that grow picture by picture. What is kept of each picture is what is reported of it.
 pub(super) struct Tracks {
-    points: Vec<Vec<Option<TrackPoint>>>,
+    /// Points of the last picture by feature; `None` for features that never matched.
+    here: Vec<Option<TrackPoint>>,
     next: u64,
+    observations: Vec<TrackObservation>,
+    /// Where each picture's observations start.
+    starts: Vec<usize>,
 }
 
 impl Tracks {
     /// No tracks yet; numbers start after the designated point's.
-    pub(super) fn new(features: impl Iterator<Item = usize>) -> Self {
-        Tracks { points: features.map(|n| vec![None; n]).collect(), next: TrackObservation::DESIGNATED + 1 }
+    pub(super) fn new() -> Self {
+        let next = TrackObservation::DESIGNATED + 1;
+        Tracks { here: Vec::new(), next, observations: Vec::new(), starts: Vec::new() }
     }
 
-    /// Carries points from picture `from` to the next one along verified matches; new ones where none was.
+    /// Carries points from the last picture, taken at `t_ns`, to the next one along verified matches; new ones where none
+    /// was.
     pub(super) fn chain(
         &mut self,
-        from: usize,
+        t_ns: i64,
         (features, next): (&[Feature], &[Feature]),
         matches: impl Iterator<Item = (IndexMatch, Option<Link>)>,
     ) {
+        self.here.resize(features.len(), None);
+        let mut there = vec![None; next.len()];
         for (m, link) in matches {
             let corner_px = features[m.from].pixel_px;
-            let start = self.points[from][m.from].unwrap_or_else(|| {
+            let start = self.here[m.from].unwrap_or_else(|| {
                 self.next += 1;
                 TrackPoint { number: self.next - 1, pixel_px: corner_px, sigma_px: FIRST_SIGMA_PX }
             });
-            self.points[from][m.from] = Some(start);
+            self.here[m.from] = Some(start);
             let carried = carry(&start, &corner_px, (&next[m.to], link));
             let parted = (carried.pixel_px - next[m.to].pixel_px).norm() > PARTED_PX;
-            self.points[from + 1][m.to] = (!parted).then_some(carried);
+            there[m.to] = (!parted).then_some(carried);
         }
+        self.report(t_ns, features);
+        self.here = there;
     }
 
-    /// Points seen in two pictures, in order of the number.
-    pub(super) fn shared(&self, from: usize, to: usize) -> Vec<SharedPoint> {
-        let sorted = |frame: usize| {
-            let mut known: Vec<TrackPoint> = self.points[frame].iter().flatten().copied().collect();
-            known.sort_unstable_by_key(|p| p.number);
-            known
-        };
-        let b = sorted(to);
-        let partner = |a: TrackPoint| {
-            let end = b[b.binary_search_by_key(&a.number, |p| p.number).ok()?];
-            let variance_px2 = end.sigma_px.powi(2) - a.sigma_px.powi(2);
-            Some((a.pixel_px, end.pixel_px, variance_px2.max(FIRST_SIGMA_PX.powi(2)).sqrt()))
-        };
-        sorted(from).into_iter().filter_map(partner).collect()
-    }
-
-    /// All observations of a picture, in order of the number.
-    pub(super) fn observations(&self, frame: usize, t_ns: i64, features: &[Feature]) -> Vec<TrackObservation> {
-        let known = self.points[frame].iter().zip(features).filter_map(|(p, f)| p.map(|p| (p, f)));
-        let observation = |(p, f): (TrackPoint, &Feature)| TrackObservation {
+    /// Reports the points of the last picture, in order of the number; [`Tracks::chain`] does so for all before it.
+    pub(super) fn report(&mut self, t_ns: i64, features: &[Feature]) {
+        let start = self.observations.len();
+        self.starts.push(start);
+        let known = self.here.iter().zip(features).filter_map(|(p, f)| p.map(|p| (p, f)));
+        self.observations.extend(known.map(|(p, f)| TrackObservation {
             t_ns,
             track_id: p.number,
             pixel_px: p.pixel_px,
             sigma_px: p.sigma_px,
             response: f.response,
+        }));
+        self.observations[start..].sort_unstable_by_key(|o| o.track_id);
+    }
+
+    /// All observations of a picture, in order of the number.
+    pub(super) fn observations(&self, picture: usize) -> &[TrackObservation] {
+        let end = self.starts.get(picture + 1).copied().unwrap_or(self.observations.len());
+        &self.observations[self.starts[picture]..end]
+    }
+
+    /// Points seen in two pictures, in order of the number.
+    pub(super) fn shared(&self, from: usize, to: usize) -> Vec<SharedPoint> {
+        let b = self.observations(to);
+        let partner = |a: &TrackObservation| {
+            let end = b[b.binary_search_by_key(&a.track_id, |o| o.track_id).ok()?];
+            let variance_px2 = end.sigma_px.powi(2) - a.sigma_px.powi(2);
+            Some((a.pixel_px, end.pixel_px, variance_px2.max(FIRST_SIGMA_PX.powi(2)).sqrt()))
         };
-        let mut all: Vec<TrackObservation> = known.map(observation).collect();
-        all.sort_unstable_by_key(|o| o.track_id);
-        all
+        self.observations(from).iter().filter_map(partner).collect()
+    }
+
+    /// Every picture's observations, in order of the picture.
+    pub(super) fn into_observations(self) -> Vec<TrackObservation> {
+        self.observations
     }
 }
 
