@@ -2,6 +2,7 @@
 //! half-written.
 
 mod folders;
+mod long_folder;
 mod outcomes;
 
 use assert_cmd::Command;

@@ -4,6 +4,50 @@
 //! to picture. Each pair's matches are explained by the model that fits the scene, which gives the rotation between the
 //! pictures with its covariance, and verified matches chain into tracks. Plain results ([`TrackObservation`],
 //! [`RelativeRotation`]) and their files are free of OpenCV and are compiled without the `vision` feature too.
+//!
+//! # From a folder of pictures to rotations
+//!
+#![cfg_attr(feature = "vision", doc = "```")]
+#![cfg_attr(not(feature = "vision"), doc = "```ignore")]
+//! use opnav::dataset::{CameraSource, ImageSequence};
+//! use opnav::vision::*;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let made = tempfile::tempdir()?;
+//! # let folder = made.path();
+//! # let speck = |x: u32, y: u32| (x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca77)).wrapping_mul(0xc2b2_ae3d) >> 24;
+//! # let ground = image::GrayImage::from_fn(320, 320, |x, y| image::Luma([speck(x / 3, y / 3) as u8]));
+//! # let ground = image::imageops::blur(&ground, 1.5);
+//! # for k in 0..3 {
+//! #     use imageproc::geometric_transformations::{Border, Interpolation, rotate_about_center};
+//! #     let turn_rad = (2.0 * k as f32).to_radians();
+//! #     let turned = rotate_about_center(&ground, turn_rad, Interpolation::Bilinear, Border::Constant(image::Luma([0])));
+//! #     image::imageops::crop_imm(&turned, 60, 60, 200, 200).to_image().save(folder.join(format!("{k}.png")))?;
+//! # }
+//! let camera = CameraSource::HorizontalFov(60f64.to_radians());
+//! let sequence = ImageSequence::open(folder, &camera)?;
+//! let found = track_sequence(&sequence, &FrontEndConfig::default(), &TrackInputs::default(), &|_| ())?;
+//!
+//! for frame in found.frames.iter().filter(|frame| frame.status != FrameStatus::Ok) {
+//!     println!("picture {} was not used: {}", frame.index, frame.status.word());
+//! }
+//! for pair in &found.rotations {
+//!     let turn_deg = pair.camera_to_from_camera_from.angle().to_degrees();
+//!     let sigma_deg = pair.covariance_rad2.trace().sqrt().to_degrees();
+//!     let (from, to, status) = (pair.t_ns_from, pair.t_ns_to, pair.status.word());
+//!     println!("{from} to {to} ns: {turn_deg:.3} ± {sigma_deg:.3} degrees, {} matches, {status}", pair.inliers);
+//! }
+//! let times_ns: Vec<i64> = found.frames.iter().map(|frame| frame.t_ns).collect();
+//! for chain in attitude_chains(&times_ns, &found.rotations) {
+//!     println!("an unbroken chain of {} attitudes from {} ns on", chain.len(), chain[0].t_ns);
+//! }
+//! write_relative_rotations(&folder.join("relative_rotations.csv"), &found.rotations)?;
+//! # let first = &found.rotations[0];
+//! # assert_eq!((first.status, found.rotations.len()), (PairStatus::Ok, 3));
+//! # assert!((first.camera_to_from_camera_from.angle().to_degrees() - 2.0).abs() < 0.05);
+//! # Ok(())
+//! # }
+//! ```
 
 #[cfg(feature = "vision")]
 mod adjacent_pair;
