@@ -40,7 +40,7 @@ impl FrameList {
             FrameTimes::RateHz(_) => FrameList { paths: found(folder)?, times_ns: None },
         };
         if list.paths.is_empty() {
-            let problem = format!("no pictures found ({}): check the folder", EXTENSIONS.join(", "));
+            let problem = format!("no pictures found ({}): {}", EXTENSIONS.join(", "), where_else(folder));
             return Err(DatasetError::Unusable { path: folder.into(), problem });
         }
         Ok(list)
@@ -129,6 +129,19 @@ fn found(folder: &Path) -> Result<Vec<PathBuf>, DatasetError> {
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(|path| is_picture(path)).collect();
     paths.sort_by(|a, b| natord::compare(&a.to_string_lossy(), &b.to_string_lossy()).then_with(|| a.cmp(b)));
     Ok(paths)
+}
+
+/// What to try instead of a folder without pictures.
+fn where_else(folder: &Path) -> String {
+    let below = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let holds_some = |path: &PathBuf| path.join("cam0").is_dir() || found(path).is_ok_and(|paths| !paths.is_empty());
+    let mut names: Vec<String> =
+        below.filter(|path| path.is_dir() && holds_some(path)).map(|p| p.display().to_string()).collect();
+    names.sort_by(|a, b| natord::compare(a, b));
+    match names.first() {
+        Some(first) => format!("give one of the {} folders below that hold some, such as {first}", names.len()),
+        None => "check the folder".into(),
+    }
 }
 
 /// Whether a file's extension is that of a picture; hidden files, which some systems leave beside pictures, are none.

@@ -25,7 +25,7 @@ pub(super) struct ChainFile {
 pub(super) fn write_front_end(out: &Path, front_end: &FrontEnd) -> Result<Vec<ChainFile>, PipelineError> {
     write_tracks(&out.join("tracks.csv"), &front_end.observations)?;
     write_relative_rotations(&out.join("relative_rotations.csv"), &front_end.rotations)?;
-    remove_earlier_chains(out)?;
+    remove_earlier(out, is_chain)?;
     let times_ns: Vec<i64> = front_end.frames.iter().map(|f| f.t_ns).collect();
     let chains = attitude_chains(&times_ns, &front_end.rotations);
     let named = chains.iter().enumerate().map(|(number, chain)| {
@@ -41,15 +41,25 @@ fn chain_file(file: String, chain: &[StampedPose]) -> ChainFile {
     ChainFile { file, t_ns_from: time(chain.first()), t_ns_to: time(chain.last()), poses: chain.len() }
 }
 
-/// Removes the chains of an earlier job in the same folder, which may have had more of them.
-fn remove_earlier_chains(out: &Path) -> Result<(), PipelineError> {
-    for entry in std::fs::read_dir(out).map_err(DatasetError::io("list", out))?.flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        if name.starts_with("attitude_chain") && name.ends_with(".tum") {
+/// Removes what an earlier job left in the same folder under names that this one may not write anew.
+fn remove_earlier(folder: &Path, is_ours: impl Fn(&str) -> bool) -> Result<(), PipelineError> {
+    if !folder.is_dir() {
+        return Ok(());
+    }
+    for entry in std::fs::read_dir(folder).map_err(DatasetError::io("list", folder))?.flatten() {
+        if is_ours(&entry.file_name().to_string_lossy()) {
             std::fs::remove_file(entry.path()).map_err(DatasetError::io("remove", entry.path()))?;
         }
     }
     Ok(())
+}
+
+fn is_chain(name: &str) -> bool {
+    name.starts_with("attitude_chain") && name.ends_with(".tum")
+}
+
+fn is_overlay(name: &str) -> bool {
+    name.strip_suffix(".png").is_some_and(|t_ns| t_ns.parse::<i64>().is_ok())
 }
 
 /// Number of frames that get an overlay of their own.
@@ -61,6 +71,7 @@ const SHEET: (usize, usize, u32) = (24, 6, 320);
 /// one sheet (`contact_sheet.png`).
 pub(super) fn write_pictures(out: &Path, sequence: &ImageSequence, front_end: &FrontEnd) -> Result<(), PipelineError> {
     let usable: Vec<usize> = (0..front_end.frames.len()).filter(|k| front_end.frames[*k].problem.is_none()).collect();
+    remove_earlier(&out.join("overlays"), is_overlay)?;
     let whole = spread(&usable[1.min(usable.len())..], OVERLAYS);
     whole.par_iter().try_for_each(|k| {
         let name = format!("overlays/{}.png", front_end.frames[*k].t_ns);

@@ -76,7 +76,8 @@ pub(super) fn run_front_end(
     let front_end = track_sequence(sequence, config, inputs, &|done| progress.advance_to(done))?;
     progress.end();
     summary.timing_ms.insert("front_end".into(), start.elapsed().as_secs_f64() * 1e3);
-    summary.timing_ms.extend(mean_stage_ms(&front_end));
+    let stages = front_end.stage_ms.iter().map(|(stage, ms)| (format!("front_end_{stage}"), *ms));
+    summary.timing_ms.extend(stages.chain(mean_stage_ms(&front_end)));
     summary.t0_ns = front_end.frames.first().map(|f| f.t_ns);
     note_outcomes(sequence, &front_end, summary);
     Ok(front_end)

@@ -100,4 +100,19 @@ pub struct FrontEnd {
     pub center_covariance_rad2: Option<Matrix2<f64>>,
     /// The designated point, as long as it could be carried.
     pub designated: Vec<DesignatedStep>,
+    /// Wall time in ms of each stage over the whole sequence, in order.
+    pub stage_ms: Vec<(&'static str, f64)>,
+}
+
+impl DesignatedStep {
+    /// As an observation of track [`TrackObservation::DESIGNATED`].
+    pub fn observation(&self) -> TrackObservation {
+        TrackObservation {
+            t_ns: self.t_ns,
+            track_id: TrackObservation::DESIGNATED,
+            pixel_px: self.pixel_px,
+            sigma_px: self.step_sigma_px,
+            response: 0.0,
+        }
+    }
 }

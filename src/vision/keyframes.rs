@@ -1,8 +1,10 @@
 //! Rotations of pictures further apart, through the tracks that they share.
 
+use super::chain::Chain;
 use super::fixed_center::{CenterProblem, CenteredPair, rotation_about_center};
 use super::frame_features::PairPixels;
-use super::sequence::{Chain, Job, as_relative_rotation};
+use super::pair_order::as_relative_rotation;
+use super::sequence::Job;
 use super::tracks::Tracks;
 use super::{PairHints, PairSolution, PairStatus, RelativeRotation, VisionError, relative_rotation};
 use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector3};

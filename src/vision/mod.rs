@@ -57,6 +57,8 @@ mod candidates;
 #[cfg(feature = "vision")]
 mod center_start;
 #[cfg(feature = "vision")]
+mod chain;
+#[cfg(feature = "vision")]
 mod config;
 #[cfg(feature = "vision")]
 mod descriptor;

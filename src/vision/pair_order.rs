@@ -1,8 +1,8 @@
 //! The rotations of a sequence in the order of the contract.
 
+use super::chain::Chain;
 use super::front_end::FrameReport;
-use super::sequence::{Chain, as_relative_rotation, linked};
-use super::{PairSolution, PairStatus, RelativeRotation};
+use super::{PairSolution, PairStatus, RelativeRotation, RotationModel};
 
 /// Adjacent pictures first, those that cannot be used included, by status; then pairs over the gaps that those leave, and
 /// keyframe pairs, together in order of time.
@@ -25,5 +25,30 @@ fn adjacent(chain: &Chain, from: &FrameReport, to: &FrameReport) -> RelativeRota
     match (place(from), place(to)) {
         (Ok(k), Ok(_)) => linked(chain, k),
         _ => as_relative_rotation((from.t_ns, to.t_ns), 0, &PairSolution::failed(PairStatus::NoFeatures, 0)),
+    }
+}
+
+/// The rotation of a picture and the next usable one.
+fn linked(chain: &Chain, k: usize) -> RelativeRotation {
+    let times = (chain.frames[k].report.t_ns, chain.frames[k + 1].report.t_ns);
+    as_relative_rotation(times, chain.pairs[k].match_count, &chain.pairs[k].solution)
+}
+
+/// A pair's solution in the form of the contract.
+pub(super) fn as_relative_rotation(
+    (t_ns_from, t_ns_to): (i64, i64),
+    matches: usize,
+    solution: &PairSolution,
+) -> RelativeRotation {
+    let ok = solution.status == PairStatus::Ok;
+    RelativeRotation {
+        t_ns_from,
+        t_ns_to,
+        camera_to_from_camera_from: solution.camera_to_from_camera_from,
+        covariance_rad2: solution.covariance_rad2,
+        matches,
+        inliers: solution.inlier_count(),
+        model: if ok { solution.model } else { RotationModel::None },
+        status: solution.status,
     }
 }

@@ -1,8 +1,9 @@
 //! Pairs with two rival solutions, settled by their neighbours.
 
 use super::adjacent_pair::Pair;
+use super::chain::Chain;
 use super::frame_features::PairPixels;
-use super::sequence::{Center, Chain, Job};
+use super::sequence::{Center, Job};
 use super::{PairHints, PairStatus, VisionError, relative_rotation};
 use crate::geometry::Camera;
 use nalgebra::{Unit, UnitQuaternion, Vector3};

@@ -1,38 +1,42 @@
 //! The front end over a whole sequence.
 
-use super::adjacent_pair::{Pair, solve_sharp_pair};
+use super::chain::{Chain, link};
 use super::designated::carry_designated;
 use super::fixed_center::{CenterProblem, CenteredPair, rotations_about_center};
-use super::frame_features::FrameFeatures;
-use super::front_end::{DesignatedStep, FrameReport, FrontEnd, RotationPrediction, TrackInputs};
+use super::frame_features::milliseconds;
+use super::front_end::{DesignatedStep, FrontEnd, RotationPrediction, TrackInputs};
 use super::keyframes::keyframe_rotations;
 use super::pair_order::rotations_in_order;
 use super::rivals::settle_rivals;
 use super::tracks::Tracks;
-use super::{
-    FrameStatus, FrontEndConfig, FrontEndMode, PairSolution, PairStatus, RelativeRotation, RotationModel,
-    TrackObservation, VisionError,
-};
+use super::{FrontEndConfig, FrontEndMode, PairSolution, PairStatus, TrackObservation, VisionError};
 use crate::dataset::{Frame, ImageSequence};
 use crate::geometry::Camera;
 use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector2, Vector3};
-use rayon::prelude::*;
-
-/// Pictures held in memory at a time.
-const CHUNK: usize = 8;
-
-/// Everything about the usable pictures of a sequence and the pairs of each with the next; reports of the others.
-pub(super) struct Chain {
-    pub(super) frames: Vec<FrameFeatures>,
-    pub(super) pairs: Vec<Pair>,
-    pub(super) lost: Vec<FrameReport>,
-}
+use std::time::Instant;
 
 /// The fixed part of the work.
 pub(super) struct Job<'a> {
     pub(super) sequence: &'a ImageSequence,
     pub(super) config: &'a FrontEndConfig,
     pub(super) prior: Option<RotationPrediction<'a>>,
+}
+
+/// Wall times of stages, one after the other.
+struct Laps {
+    since: Instant,
+    times_ms: Vec<(&'static str, f64)>,
+}
+
+impl Laps {
+    fn start() -> Self {
+        Laps { since: Instant::now(), times_ms: Vec::new() }
+    }
+
+    fn end(&mut self, stage: &'static str) {
+        self.times_ms.push((stage, milliseconds(self.since)));
+        self.since = Instant::now();
+    }
 }
 
 /// The centre of rotation with its covariance, in the fixed-centre mode.
@@ -68,20 +72,25 @@ pub fn track_sequence(
     opencv::core::set_num_threads(1).map_err(VisionError::opencv("set its number of threads"))?;
     let mut chosen = chosen_frames(sequence, inputs)?;
     let job = Job { sequence, config, prior: inputs.rotation_prior };
+    let mut laps = Laps::start();
     let mut tracks = Tracks::new();
     let mut chain = link(&job, &chosen, &mut tracks, progress)?;
-    let reports = all_reports(&chain)?;
+    laps.end("link");
+    let reports = chain.reports()?;
     chosen.retain(|frame| chain.frames.binary_search_by_key(&frame.index, |f| f.report.index).is_ok());
     let center = match config.mode {
         FrontEndMode::Auto => settle_rivals(&job, &mut chain)?,
         FrontEndMode::FixedCenter => solve_about_center(&job, &mut chain, &mut tracks),
     };
+    laps.end("settle");
     let keyframes = keyframe_rotations(&job, &chain, &tracks, center.as_ref())?;
     let rotations = rotations_in_order(&chain, &reports, keyframes);
+    laps.end("keyframes");
     let designated = match &inputs.designated {
         Some(start) => carry_designated(&job, &chosen, &tracks, start)?,
         None => Vec::new(),
     };
+    laps.end("designated");
     let observations = with_designated(tracks.into_observations(), &designated);
     Ok(FrontEnd {
         observations,
@@ -90,6 +99,7 @@ pub fn track_sequence(
         center_in_camera: center.map(|c| c.0),
         center_covariance_rad2: center.map(|c| c.1),
         designated,
+        stage_ms: laps.times_ms,
     })
 }
 
@@ -101,48 +111,6 @@ fn chosen_frames<'a>(sequence: &'a ImageSequence, inputs: &TrackInputs) -> Resul
     let start = inputs.frames.start.min(end);
     let chosen: Vec<&Frame> = sequence.frames[start..end].iter().step_by(inputs.every).collect();
     if chosen.len() < 2 { Err(VisionError::TooFewPictures { found: chosen.len() }) } else { Ok(chosen) }
-}
-
-/// Features of all pictures, matches of adjacent ones and tracks along those, a chunk at a time. About a centre, what
-/// matches agree is only known when all pairs are solved together: tracks wait for that.
-fn link(
-    job: &Job,
-    chosen: &[&Frame],
-    tracks: &mut Tracks,
-    progress: &(dyn Fn(usize) + Sync),
-) -> Result<Chain, VisionError> {
-    let done = std::sync::atomic::AtomicUsize::new(0);
-    let mut chain = Chain { frames: Vec::new(), pairs: Vec::new(), lost: Vec::new() };
-    for chunk in chosen.chunks(CHUNK) {
-        let find = |frame: &&Frame| {
-            let found = FrameFeatures::find(job.sequence, frame, job.config);
-            progress(done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1);
-            found
-        };
-        let first = chain.frames.len().saturating_sub(1);
-        for found in chunk.par_iter().map(find).collect::<Result<Vec<_>, _>>()? {
-            match found.report.status {
-                FrameStatus::Ok => chain.frames.push(found),
-                _ => chain.lost.push(found.report),
-            }
-        }
-        let open: Vec<&[FrameFeatures]> = chain.frames[first..].windows(2).collect();
-        let pairs = open.par_iter().map(|w| solve_sharp_pair(job, &w[0], &w[1])).collect::<Result<Vec<_>, _>>()?;
-        chain.pairs.extend(pairs);
-        let last = chain.frames.len().saturating_sub(1);
-        chain.frames[first..last].iter_mut().for_each(FrameFeatures::forget_picture);
-        if job.config.mode == FrontEndMode::Auto {
-            chain_tracks(&mut chain, first, tracks);
-        }
-    }
-    for (k, pair) in chain.pairs.iter().enumerate() {
-        let report = &mut chain.frames[k + 1].report;
-        (report.matches, report.match_ms, report.rotation_ms) = (pair.match_count, pair.match_ms, pair.rotation_ms);
-    }
-    if let Some(last) = chain.frames.last().filter(|_| job.config.mode == FrontEndMode::Auto) {
-        tracks.report(last.report.t_ns, &last.features);
-    }
-    Ok(chain)
 }
 
 fn solve_about_center(job: &Job, chain: &mut Chain, tracks: &mut Tracks) -> Center {
@@ -173,21 +141,9 @@ fn solve_about_center(job: &Job, chain: &mut Chain, tracks: &mut Tracks) -> Cent
         let hopeless = pair.solution.status == PairStatus::NoFeatures;
         pair.solution = if hopeless { PairSolution::failed(PairStatus::NoFeatures, 0) } else { solution };
     }
-    chain_tracks(chain, 0, tracks);
-    if let Some(last) = chain.frames.last() {
-        tracks.report(last.report.t_ns, &last.features);
-    }
+    chain.extend_tracks(0, tracks);
+    chain.end_tracks(tracks);
     Some((solved.center_in_camera, solved.center_covariance_rad2))
-}
-
-/// Extends the tracks along all pairs from number `first` on, and drops what is then done with.
-fn chain_tracks(chain: &mut Chain, first: usize, tracks: &mut Tracks) {
-    for (k, pair) in chain.pairs.iter_mut().enumerate().skip(first) {
-        let (here, next) = (&chain.frames[k], &chain.frames[k + 1]);
-        tracks.chain(here.report.t_ns, (&here.features, &next.features), pair.verified());
-        pair.forget_matches();
-        chain.frames[k].features = Vec::new();
-    }
 }
 
 /// The observations with those of the designated point, first in each picture.
@@ -199,54 +155,4 @@ fn with_designated(observations: Vec<TrackObservation>, designated: &[Designated
     all.extend(observations);
     all.sort_by_key(|o| (o.t_ns, o.track_id));
     all
-}
-
-/// Reports of all pictures in order; refused where fewer than two could be loaded.
-fn all_reports(chain: &Chain) -> Result<Vec<FrameReport>, VisionError> {
-    let usable = chain.frames.iter().map(|f| &f.report);
-    let mut all: Vec<FrameReport> = usable.chain(&chain.lost).cloned().collect();
-    all.sort_unstable_by_key(|r| r.index);
-    let found = all.iter().filter(|r| r.problem.is_none()).count();
-    match all.iter().find_map(|r| r.problem.clone()) {
-        Some(problem) if found < 2 => Err(VisionError::TooFewUsable { found, selected: all.len(), problem }),
-        _ => Ok(all),
-    }
-}
-
-/// The rotation of a picture and the next usable one.
-pub(super) fn linked(chain: &Chain, k: usize) -> RelativeRotation {
-    let times = (chain.frames[k].report.t_ns, chain.frames[k + 1].report.t_ns);
-    as_relative_rotation(times, chain.pairs[k].match_count, &chain.pairs[k].solution)
-}
-
-/// A pair's solution in the form of the contract.
-pub(super) fn as_relative_rotation(
-    (t_ns_from, t_ns_to): (i64, i64),
-    matches: usize,
-    solution: &PairSolution,
-) -> RelativeRotation {
-    let ok = solution.status == PairStatus::Ok;
-    RelativeRotation {
-        t_ns_from,
-        t_ns_to,
-        camera_to_from_camera_from: solution.camera_to_from_camera_from,
-        covariance_rad2: solution.covariance_rad2,
-        matches,
-        inliers: solution.inlier_count(),
-        model: if ok { solution.model } else { RotationModel::None },
-        status: solution.status,
-    }
-}
-
-impl DesignatedStep {
-    /// As an observation of track [`TrackObservation::DESIGNATED`].
-    pub fn observation(&self) -> TrackObservation {
-        TrackObservation {
-            t_ns: self.t_ns,
-            track_id: TrackObservation::DESIGNATED,
-            pixel_px: self.pixel_px,
-            sigma_px: self.step_sigma_px,
-            response: 0.0,
-        }
-    }
 }

@@ -73,6 +73,16 @@ fn folders_that_cannot_be_tracked() {
     let empty = folder();
     let kinds = "png, jpg, jpeg, tif, tiff, bmp, pgm, ppm, pbm, pnm";
     assert_eq!(message(&empty, &fov), format!("error: FOLDER: no pictures found ({kinds}): check the folder"));
+    let above = folder();
+    for node in ["node10", "node2"] {
+        std::fs::create_dir_all(above.path().join(node).join("cam0")).expect("a folder");
+    }
+    assert_eq!(
+        message(&above, &fov),
+        format!(
+            "error: FOLDER: no pictures found ({kinds}): give one of the 2 folders below that hold some, such as FOLDER/node2"
+        )
+    );
     assert_eq!(
         message(&frames(1), &fov),
         "error: at least two pictures are needed, and 1 selected: check the folder and the range of frames"
@@ -182,6 +192,18 @@ fn pictures_of_one_pixel_are_an_outcome() {
     }
     let (pairs, unused) = tracked(&folder);
     assert_eq!((pairs, unused.len()), (vec![PairStatus::NoFeatures; 2], 3));
+}
+
+#[test]
+fn nothing_of_an_earlier_job_stays_in_the_result() {
+    let folder = frames(4);
+    let out = folder.path().join("result");
+    std::fs::create_dir_all(out.join("overlays")).expect("a folder");
+    let stale = ["overlays/77.png", "attitude_chain_7.tum"].map(|name| out.join(name));
+    let kept = ["overlays/mine.png", "notes.txt"].map(|name| out.join(name));
+    stale.iter().chain(&kept).for_each(|path| std::fs::write(path, "").expect("written"));
+    tracked(&folder);
+    assert!(stale.iter().all(|path| !path.exists()) && kept.iter().all(|path| path.exists()));
 }
 
 #[test]

@@ -100,16 +100,8 @@ fn put(path: &Path, bytes: &[u8]) {
     std::fs::write(path, bytes).expect("a file");
 }
 
-/// An error's text without what differs from file to file.
+/// An error's text without what differs from file to file: up to the first quotation, letters alone.
 fn kind(error: &str) -> String {
-    let mut quoted = false;
-    let mut text: String = error
-        .chars()
-        .filter(|c| {
-            quoted ^= *c == '\'' || *c == '`' || *c == '"';
-            !quoted && (c.is_ascii_alphabetic() || *c == ' ')
-        })
-        .collect();
-    text.truncate(160);
-    text
+    let ours = error.split(['\'', '`', '"']).next().unwrap_or_default();
+    ours.chars().filter(|c| c.is_ascii_alphabetic() || *c == ' ').take(120).collect()
 }

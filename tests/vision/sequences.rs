@@ -61,6 +61,7 @@ pub fn gyro(from: i64, to: i64) -> Option<UnitQuaternion<f64>> {
 
 /// Everything but the times.
 fn without_times(mut result: FrontEnd) -> FrontEnd {
+    result.stage_ms.clear();
     for f in &mut result.frames {
         (f.load_ms, f.detect_ms, f.describe_ms, f.match_ms, f.rotation_ms) = (0.0, 0.0, 0.0, 0.0, 0.0);
     }

@@ -1,0 +1,94 @@
+//! Pictures one after the other, and the pairs between them.
+
+use super::adjacent_pair::{Pair, solve_sharp_pair};
+use super::frame_features::FrameFeatures;
+use super::front_end::FrameReport;
+use super::sequence::Job;
+use super::tracks::Tracks;
+use super::{FrameStatus, FrontEndMode, VisionError};
+use crate::dataset::Frame;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Pictures held in memory at a time.
+const CHUNK: usize = 8;
+
+/// Everything about the usable pictures of a sequence and the pairs of each with the next; reports of the others.
+#[derive(Default)]
+pub(super) struct Chain {
+    pub(super) frames: Vec<FrameFeatures>,
+    pub(super) pairs: Vec<Pair>,
+    pub(super) lost: Vec<FrameReport>,
+}
+
+/// Features of all pictures, matches of adjacent ones and tracks along those, a chunk at a time. About a centre, what
+/// matches agree is only known when all pairs are solved together: tracks wait for that.
+pub(super) fn link(
+    job: &Job,
+    chosen: &[&Frame],
+    tracks: &mut Tracks,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Chain, VisionError> {
+    let done = AtomicUsize::new(0);
+    let mut chain = Chain::default();
+    for chunk in chosen.chunks(CHUNK) {
+        let find = |frame: &&Frame| {
+            let found = FrameFeatures::find(job.sequence, frame, job.config);
+            progress(done.fetch_add(1, Ordering::Relaxed) + 1);
+            found
+        };
+        let first = chain.frames.len().saturating_sub(1);
+        for found in chunk.par_iter().map(find).collect::<Result<Vec<_>, _>>()? {
+            match found.report.status {
+                FrameStatus::Ok => chain.frames.push(found),
+                _ => chain.lost.push(found.report),
+            }
+        }
+        let open: Vec<&[FrameFeatures]> = chain.frames[first..].windows(2).collect();
+        let pairs = open.par_iter().map(|w| solve_sharp_pair(job, &w[0], &w[1])).collect::<Result<Vec<_>, _>>()?;
+        for (pair, to) in pairs.iter().zip(chain.frames.iter_mut().skip(first + 1)) {
+            let report = &mut to.report;
+            (report.matches, report.match_ms, report.rotation_ms) = (pair.match_count, pair.match_ms, pair.rotation_ms);
+        }
+        chain.pairs.extend(pairs);
+        let last = chain.frames.len().saturating_sub(1);
+        chain.frames[first..last].iter_mut().for_each(FrameFeatures::forget_picture);
+        if job.config.mode == FrontEndMode::Auto {
+            chain.extend_tracks(first, tracks);
+        }
+    }
+    if job.config.mode == FrontEndMode::Auto {
+        chain.end_tracks(tracks);
+    }
+    Ok(chain)
+}
+
+impl Chain {
+    /// Extends the tracks along all pairs from number `first` on, and drops what is then done with.
+    pub(super) fn extend_tracks(&mut self, first: usize, tracks: &mut Tracks) {
+        for (k, pair) in self.pairs.iter_mut().enumerate().skip(first) {
+            let (here, next) = (&self.frames[k], &self.frames[k + 1]);
+            tracks.chain(here.report.t_ns, (&here.features, &next.features), pair.verified());
+            pair.forget_matches();
+            self.frames[k].features = Vec::new();
+        }
+    }
+
+    /// Ends the tracks with the last picture.
+    pub(super) fn end_tracks(&self, tracks: &mut Tracks) {
+        if let Some(last) = self.frames.last() {
+            tracks.report(last.report.t_ns, &last.features);
+        }
+    }
+
+    /// Reports of all pictures in order; refused where fewer than two could be loaded.
+    pub(super) fn reports(&self) -> Result<Vec<FrameReport>, VisionError> {
+        let mut all: Vec<FrameReport> = self.frames.iter().map(|f| &f.report).chain(&self.lost).cloned().collect();
+        all.sort_unstable_by_key(|r| r.index);
+        let found = all.iter().filter(|r| r.problem.is_none()).count();
+        match all.iter().find_map(|r| r.problem.clone()) {
+            Some(problem) if found < 2 => Err(VisionError::TooFewUsable { found, selected: all.len(), problem }),
+            _ => Ok(all),
+        }
+    }
+}
