@@ -83,8 +83,9 @@ fn listed(list: &Path, folder: &Path) -> Result<FrameList, DatasetError> {
             .filter(|(_, name)| !name.is_empty())
             .ok_or_else(|| malformed("'timestamp [ns],filename' expected".into()))?;
         let Some(t_ns) = time_ns(time) else {
-            if number == 0 {
-                continue; // a header
+            let is_header = number == 0 && time.starts_with(char::is_alphabetic);
+            if is_header {
+                continue;
             }
             let problem = format!("'{time}' is not a time stamp: write whole nanoseconds, or seconds with a point");
             return Err(malformed(problem));
@@ -111,9 +112,11 @@ fn listed(list: &Path, folder: &Path) -> Result<FrameList, DatasetError> {
     Ok(FrameList { paths, times_ns: Some(times_ns) })
 }
 
-/// Whole nanoseconds, or seconds with a decimal point.
+/// Whole nanoseconds, or seconds with a decimal point; at most 2^62 ns (146 years) from 0, so that two times have a
+/// difference.
 fn time_ns(text: &str) -> Option<i64> {
-    text.parse().ok().or_else(|| text.contains('.').then(|| seconds_to_ns(text)).flatten())
+    let t_ns = text.parse().ok().or_else(|| text.contains('.').then(|| seconds_to_ns(text)).flatten());
+    t_ns.filter(|t: &i64| t.unsigned_abs() <= 1 << 62)
 }
 
 /// A picture that a list names: in the folder's `data/`, in the folder, or beside the list.

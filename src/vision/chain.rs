@@ -10,8 +10,16 @@ use crate::dataset::Frame;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Pictures held in memory at a time.
-const CHUNK: usize = 8;
+/// Most pixels of the pictures that are worked on at a time; two pictures always are.
+const MOST_PIXELS: usize = 1 << 26;
+/// Most pictures that are worked on at a time.
+const MOST_PICTURES: usize = 8;
+
+/// Pictures that are worked on, and held in memory, at a time.
+fn pictures_at_a_time(job: &Job) -> usize {
+    let (width_px, height_px) = job.camera().size_px();
+    (MOST_PIXELS / (width_px as usize * height_px as usize).max(1)).clamp(2, MOST_PICTURES)
+}
 
 /// Everything about the usable pictures of a sequence and the pairs of each with the next; reports of the others.
 #[derive(Default)]
@@ -31,7 +39,7 @@ pub(super) fn link(
 ) -> Result<Chain, VisionError> {
     let done = AtomicUsize::new(0);
     let mut chain = Chain::default();
-    for chunk in chosen.chunks(CHUNK) {
+    for chunk in chosen.chunks(pictures_at_a_time(job)) {
         let find = |frame: &&Frame| {
             let found = FrameFeatures::find(job.sequence, frame, job.config);
             progress(done.fetch_add(1, Ordering::Relaxed) + 1);

@@ -306,6 +306,8 @@ fn bad_lists_are_refused_with_the_line_and_a_lost_picture_is_not() {
             "'noon' is not a time stamp: write whole nanoseconds, or seconds with a point",
         ),
         ("5,x.png\n99999999999999999999,z.png\n", Some(2), "is not a time stamp"),
+        ("-9223372036854775808,x.png\n9,z.png\n", Some(1), "is not a time stamp"),
+        ("5,x.png\n4611686018427387905,z.png\n", Some(2), "is not a time stamp"),
         ("5,x.png\n6,\n", Some(2), "'timestamp [ns],filename' expected"),
         ("5,u.png\n6,v.png\n", None, "none of its 2 pictures exists, such as"),
     ];
