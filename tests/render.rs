@@ -44,7 +44,7 @@ fn detector(frame: &RenderedFrame, config: &SensorConfig, seed: u64) -> Detector
     Detector::new(&camera, config, seed, 0)
 }
 
-fn gpu() -> Gpu {
+pub fn gpu() -> Gpu {
     Gpu::new(None).expect("a graphics adapter")
 }
 

@@ -50,7 +50,7 @@ pub(super) fn solve_sharp_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatur
         return Ok(pair);
     }
     let start = Instant::now();
-    pair.links = sharpen((&from.picture, &to.picture), &pair.pixels, &pair.solution.inliers);
+    pair.links = sharpen((&from.picture, &to.picture), (&pair.pixels, &pair.solution.inliers), &job.config.klt);
     pair.match_ms += milliseconds(start);
     let start = Instant::now();
     let pixels = pair.pixels.sharpened(&pair.links);

@@ -22,6 +22,8 @@ pub struct DetectorConfig {
     pub max_features: usize,
     /// Gaussian smoothing before detection, 1σ in px (default 1.0).
     pub smoothing_sigma_px: f64,
+    /// Gaussian smoothing of the response, 1σ in px (default 0.8).
+    pub response_sigma_px: f64,
     /// Side of the window that gathers the structure tensor, px (default 5).
     pub block_px: u32,
     /// Harris' trace factor k (default 0.04).
@@ -32,6 +34,8 @@ pub struct DetectorConfig {
     pub min_distance_px: f64,
     /// Features closer to the picture's edge are dropped, px (default 16).
     pub border_px: u32,
+    /// Peaks of the response with a greater width are too blunt to be found again at the same place, px (default 2.2).
+    pub max_peak_width_px: f64,
     /// Features with a greater predicted 1σ are dropped, px (default 0.4).
     pub max_sigma_px: f64,
 }
@@ -41,11 +45,13 @@ impl Default for DetectorConfig {
         DetectorConfig {
             max_features: 1000,
             smoothing_sigma_px: 1.0,
+            response_sigma_px: 0.8,
             block_px: 5,
             harris_k: 0.04,
             min_response_ratio: 1e-5,
             min_distance_px: 5.0,
             border_px: 16,
+            max_peak_width_px: 2.2,
             max_sigma_px: 0.4,
         }
     }
@@ -66,6 +72,37 @@ pub struct MatcherConfig {
 impl Default for MatcherConfig {
     fn default() -> Self {
         MatcherConfig { max_ratio: 0.85, max_distance_bits: 64, guided_radius_px: 60.0 }
+    }
+}
+
+/// Following of patches.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct KltConfig {
+    /// Half the patch's side, px (default 10: 21 px a side).
+    pub half_px: u32,
+    /// Sizes of the picture that are searched, each half as large as the one before (default 3).
+    pub levels: u32,
+    /// Most steps on each size (default 20).
+    pub max_iterations: u32,
+    /// Greatest way from where a size's search begins, in px of that size (default 4).
+    pub max_off_px: f64,
+    /// Patches that are less alike do not match (default 0.8).
+    pub min_correlation: f64,
+    /// A point followed there and back must end this near to where it began, px (default 0.5).
+    pub max_return_px: f64,
+}
+
+impl Default for KltConfig {
+    fn default() -> Self {
+        KltConfig {
+            half_px: 10,
+            levels: 3,
+            max_iterations: 20,
+            max_off_px: 4.0,
+            min_correlation: 0.8,
+            max_return_px: 0.5,
+        }
     }
 }
 
@@ -141,6 +178,8 @@ pub struct FrontEndConfig {
     pub detector: DetectorConfig,
     /// Matching.
     pub matcher: MatcherConfig,
+    /// Following of patches.
+    pub klt: KltConfig,
     /// Rotation.
     pub rotation: RotationConfig,
     /// The fixed-centre model, used in that mode only.
@@ -157,6 +196,7 @@ impl Default for FrontEndConfig {
             mode: FrontEndMode::default(),
             detector: DetectorConfig::default(),
             matcher: MatcherConfig::default(),
+            klt: KltConfig::default(),
             rotation: RotationConfig::default(),
             fixed_center: FixedCenterConfig::default(),
             keyframe_spans: vec![2, 3, 4],
@@ -171,16 +211,21 @@ impl FrontEndConfig {
     /// # Errors
     /// [`VisionError::OutOfRange`] names the key.
     pub fn validate(&self) -> Result<(), VisionError> {
-        let (d, m, r, c) = (&self.detector, &self.matcher, &self.rotation, &self.fixed_center);
+        let (d, m, k) = (&self.detector, &self.matcher, &self.klt);
+        let (r, c) = (&self.rotation, &self.fixed_center);
         let positive = [
             ("detector.max_features", d.max_features as f64),
             ("detector.smoothing_sigma_px", d.smoothing_sigma_px),
+            ("detector.response_sigma_px", d.response_sigma_px),
+            ("detector.max_peak_width_px", d.max_peak_width_px),
             ("detector.harris_k", d.harris_k),
             ("detector.min_response_ratio", d.min_response_ratio),
             ("detector.min_distance_px", d.min_distance_px),
             ("detector.max_sigma_px", d.max_sigma_px),
             ("matcher.max_ratio", m.max_ratio),
             ("matcher.guided_radius_px", m.guided_radius_px),
+            ("klt.max_off_px", k.max_off_px),
+            ("klt.max_return_px", k.max_return_px),
             ("rotation.threshold_px", r.threshold_px),
             ("rotation.sigma_px", r.sigma_px),
             ("rotation.max_sigma_rad", r.max_sigma_rad),
@@ -199,6 +244,9 @@ impl FrontEndConfig {
         let at_least = [
             ("detector.block_px", f64::from(d.block_px), 3.0, "it must be an odd number of 3 or more"),
             ("detector.border_px", f64::from(d.border_px), 4.0, "it must be 4 or more"),
+            ("klt.half_px", f64::from(k.half_px), 2.0, "it must be 2 or more"),
+            ("klt.levels", f64::from(k.levels), 1.0, "it must be 1 or more"),
+            ("klt.max_iterations", f64::from(k.max_iterations), 1.0, "it must be 1 or more"),
             ("rotation.min_matches", r.min_matches as f64, 8.0, "it must be 8 or more"),
         ];
         for (name, value, least, cure) in at_least {
@@ -210,7 +258,11 @@ impl FrontEndConfig {
             let value = f64::from(d.block_px);
             return Err(VisionError::OutOfRange { name: "detector.block_px", value, cure: "it must be odd" });
         }
-        for (name, value) in [("matcher.max_ratio", m.max_ratio), ("rotation.min_inlier_ratio", r.min_inlier_ratio)] {
+        for (name, value) in [
+            ("matcher.max_ratio", m.max_ratio),
+            ("klt.min_correlation", k.min_correlation),
+            ("rotation.min_inlier_ratio", r.min_inlier_ratio),
+        ] {
             if !(0.0..=1.0).contains(&value) {
                 return Err(VisionError::OutOfRange { name, value, cure: "it must lie between 0 and 1" });
             }

@@ -5,19 +5,19 @@
 //! share enough tracks near the point, and what they say is averaged, so that errors add up slowly. Where the point leaves the picture
 //! or the matches, it ends: nothing is invented.
 
-use super::VisionError;
 use super::front_end::DesignatedStep;
 use super::local_affine::{Affine, Match, fit_affine};
 use super::patch::refine_by_patch;
 use super::sequence::Job;
 use super::tracks::Tracks;
+use super::{KltConfig, VisionError};
 use crate::dataset::{DesignatedPoint, Frame};
 use image::GrayImage;
 use nalgebra::Matrix2;
 use std::collections::VecDeque;
 
 /// Half the side of the patch about the point, px.
-const HALF_PX: i32 = 15;
+const HALF_PX: u32 = 15;
 /// Pictures back to which the point may be tied.
 const MEMORY: usize = 8;
 /// The point ends this close to the edge, px.
@@ -50,12 +50,13 @@ pub(super) fn carry_designated(
         t_ns_from: chosen[first].t_ns,
         refined: false,
     }];
+    let klt = KltConfig { half_px: HALF_PX, ..job.config.klt.clone() };
     let mut past = VecDeque::new();
     past.push_back(Past { frame: first, picture: job.sequence.load(chosen[first])?, step: steps[0] });
     for (frame, file) in chosen.iter().enumerate().skip(first + 1) {
         let picture = job.sequence.load(file)?;
         let carried: Vec<DesignatedStep> =
-            past.iter().filter_map(|p| carry(p, (frame, &picture, file.t_ns), tracks)).collect();
+            past.iter().filter_map(|p| carry(p, (frame, &picture, file.t_ns), tracks, &klt)).collect();
         let Some(step) = fused(&carried).filter(|s| job.camera().contains(&s.pixel_px, MARGIN_PX)) else { break };
         steps.push(step);
         past.push_back(Past { frame, picture, step });
@@ -68,7 +69,12 @@ pub(super) fn carry_designated(
 
 /// The point in a new picture from a past one; `None` where too few tracks near it are shared, or the scale changed too
 /// much.
-fn carry(past: &Past, (frame, picture, t_ns): (usize, &GrayImage, i64), tracks: &Tracks) -> Option<DesignatedStep> {
+fn carry(
+    past: &Past,
+    (frame, picture, t_ns): (usize, &GrayImage, i64),
+    tracks: &Tracks,
+    klt: &KltConfig,
+) -> Option<DesignatedStep> {
     let pairs: Vec<Match> = tracks.shared(past.frame, frame);
     let adjacent = frame == past.frame + 1;
     let local = fit_affine(&past.step.pixel_px, &pairs, if adjacent { 8 } else { 16 })?;
@@ -77,10 +83,10 @@ fn carry(past: &Past, (frame, picture, t_ns): (usize, &GrayImage, i64), tracks: 
         return None;
     }
     let predicted = local.affine.apply(&past.step.pixel_px);
-    let refined = refine_by_patch((&past.picture, picture), &past.step.pixel_px, &local.affine, HALF_PX)
+    let refined = refine_by_patch((&past.picture, picture), &past.step.pixel_px, &local.affine, klt)
         .filter(|r| (r.pixel_px - predicted).norm() < 3.0 * local.sigma_px + 0.5);
     let (pixel_px, step_sigma_px) = match &refined {
-        Some(r) => (r.pixel_px, r.sigma_px),
+        Some(r) => (r.pixel_px, r.sigma_px()),
         None => (predicted, local.sigma_px),
     };
     Some(DesignatedStep {

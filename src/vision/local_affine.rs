@@ -10,6 +10,11 @@ pub(super) struct Affine {
 }
 
 impl Affine {
+    /// The map that takes `from_px` to `to_px`.
+    pub(super) fn about(from_px: &Vector2<f64>, to_px: &Vector2<f64>, linear: Matrix2<f64>) -> Self {
+        Affine { linear, shift: to_px - linear * from_px }
+    }
+
     pub(super) fn apply(&self, pixel_px: &Vector2<f64>) -> Vector2<f64> {
         self.linear * pixel_px + self.shift
     }

@@ -61,6 +61,8 @@ mod chain;
 #[cfg(feature = "vision")]
 mod config;
 #[cfg(feature = "vision")]
+mod corner_peak;
+#[cfg(feature = "vision")]
 mod descriptor;
 #[cfg(feature = "vision")]
 mod designated;
@@ -79,6 +81,8 @@ mod harris;
 #[cfg(feature = "vision")]
 mod keyframes;
 #[cfg(feature = "vision")]
+mod klt;
+#[cfg(feature = "vision")]
 mod local_affine;
 #[cfg(feature = "vision")]
 mod matching;
@@ -93,6 +97,8 @@ mod pair_models;
 mod pair_order;
 #[cfg(feature = "vision")]
 mod patch;
+#[cfg(feature = "vision")]
+mod picture_noise;
 #[cfg(feature = "vision")]
 mod plausible;
 #[cfg(feature = "vision")]
@@ -126,13 +132,17 @@ pub use tracks_file::{read_tracks, write_tracks};
 
 #[cfg(feature = "vision")]
 pub use {
-    config::{DetectorConfig, FixedCenterConfig, FrontEndConfig, FrontEndMode, MatcherConfig, RotationConfig},
+    config::{
+        DetectorConfig, FixedCenterConfig, FrontEndConfig, FrontEndMode, KltConfig, MatcherConfig, RotationConfig,
+    },
     descriptor::{Descriptor, Orientation, describe},
     error::VisionError,
     fixed_center::{CenterProblem, CenterSolution, CenteredPair, rotations_about_center},
     front_end::{DesignatedStep, FrameReport, FrontEnd, RotationPrediction, TrackInputs},
-    harris::{Feature, detect_harris, noise_sigma_dn},
+    harris::{Feature, detect_harris},
+    klt::{KltPoint, track_patches},
     matching::{Described, IndexMatch, match_features, match_features_guided},
+    picture_noise::noise_sigma_dn,
     relative_rotation::{PairHints, PairSolution, PixelMatches, relative_rotation},
     sequence::track_sequence,
     silhouette::{bright_centroid_px, inside_silhouette},

@@ -11,6 +11,12 @@ pub(super) fn picture_mat(picture: &GrayImage) -> opencv::Result<BoxedRef<'_, Ma
     Mat::new_rows_cols_with_data(picture.height() as i32, picture.width() as i32, picture.as_raw().as_slice())
 }
 
+/// A picture from OpenCV's one of 8 bits.
+pub(super) fn grey_image(mat: &Mat) -> opencv::Result<GrayImage> {
+    let levels = mat.data_bytes()?.to_vec();
+    Ok(GrayImage::from_raw(mat.cols() as u32, mat.rows() as u32, levels).expect("a byte a pixel"))
+}
+
 /// Version of the OpenCV library in use, such as `4.6.0`.
 pub fn opencv_version() -> String {
     opencv::core::get_version_string().unwrap_or_else(|_| "unknown".into())

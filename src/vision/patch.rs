@@ -1,95 +1,214 @@
-//! Refines a point by the grey levels about it (Lucas and Kanade 1981), after warping the old patch.
+//! Aligns a patch of grey levels, warped by a predicted motion, with another picture (Lucas and Kanade 1981), in the
+//! inverse compositional form of Baker and Matthews (2004) with a gain and an offset of the grey levels.
 
+use super::KltConfig;
 use super::local_affine::Affine;
 use image::GrayImage;
-use nalgebra::{Matrix3, Vector2, Vector3, Vector4};
+use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
+
+/// A step shorter than this ends the alignment, px.
+const SETTLED_PX: f64 = 0.003;
+
+/// Residuals of neighbouring pixels share their noise: this many count as one (fitted to rendered ground).
+const SHARED: f64 = 2.7;
+
+/// What the ground's own change between two pictures costs, px: the error that is left without noise.
+const FLOOR_SIGMA_PX: f64 = 0.02;
+
+/// Least variance of residuals: that of rounding, in squared grey levels.
+const LEAST_VARIANCE_DN2: f64 = 1.0 / 12.0;
 
 /// A refined pixel.
 pub(super) struct Refined {
     pub(super) pixel_px: Vector2<f64>,
-    pub(super) sigma_px: f64,
+    pub(super) covariance_px2: Matrix2<f64>,
+    pub(super) correlation: f64,
 }
 
-/// Aligns the old patch of `2 half_px + 1` pixels a side, warped by `affine`, with the new picture: shift, gain and
-/// offset, by Gauss-Newton. `None` at the edge, on featureless ground, or where the patches do not look alike (correlation below 0.8).
+impl Refined {
+    /// R.m.s. 1σ of both coordinates, px.
+    pub(super) fn sigma_px(&self) -> f64 {
+        (0.5 * self.covariance_px2.trace()).sqrt()
+    }
+}
+
+/// Aligns the patch of the old picture about `old_px`, warped by `affine`, with the new picture. `None` at the edge, on
+/// featureless ground, further than allowed from where `affine` leads, or where the patches do not look alike.
 pub(super) fn refine_by_patch(
     (old, new): (&GrayImage, &GrayImage),
     old_px: &Vector2<f64>,
     affine: &Affine,
-    half_px: i32,
+    config: &KltConfig,
 ) -> Option<Refined> {
-    let to_old = affine.linear.try_inverse()?;
-    let mut pixel = affine.apply(old_px);
-    let template = sample_patch(old, half_px, |d| old_px + to_old * d)?;
-    for _ in 0..15 {
-        let (step, quality) = alignment(&template, new, &pixel, half_px)?;
-        pixel += step;
-        if (pixel - affine.apply(old_px)).norm() > 6.0 {
+    let template = Template::new(old, old_px, &affine.linear.try_inverse()?, config.half_px as usize)?;
+    let start_px = affine.apply(old_px);
+    let mut pixel_px = start_px;
+    let mut here = vec![0.0; template.side * template.side];
+    for _ in 0..config.max_iterations {
+        sample_square(new, &pixel_px, template.side / 2, &mut here)?;
+        here.iter_mut().for_each(|level| *level -= template.zero_dn);
+        let fit = template.fit(&here)?;
+        pixel_px += fit.step_px;
+        if !((pixel_px - start_px).norm() <= config.max_off_px) {
             return None;
         }
-        if step.norm() < 0.005 {
-            return (quality.correlation > 0.8).then_some(Refined { pixel_px: pixel, sigma_px: quality.sigma_px });
+        if fit.step_px.norm() < SETTLED_PX {
+            let refined = Refined { pixel_px, covariance_px2: fit.covariance_px2, correlation: fit.correlation };
+            return (fit.correlation > config.min_correlation).then_some(refined);
         }
     }
     None
 }
 
-struct Quality {
+/// The warped old patch, as columns of a linear model of the new one: -slope by u, -slope by v, grey level, 1.
+struct Template {
+    side: usize,
+    columns: [Vec<f32>; 3],
+    /// Mean grey level of the old patch, from which all levels are counted: sums keep their digits.
+    zero_dn: f32,
+    inverse: Matrix4<f64>,
+    variance_dn2: f64,
+}
+
+/// How the new patch follows from the old one.
+struct Fit {
+    step_px: Vector2<f64>,
+    covariance_px2: Matrix2<f64>,
     correlation: f64,
-    sigma_px: f64,
 }
 
-fn offsets(half_px: i32) -> impl Iterator<Item = Vector2<f64>> {
-    (-half_px..=half_px).flat_map(move |v| (-half_px..=half_px).map(move |u| Vector2::new(f64::from(u), f64::from(v))))
+impl Template {
+    fn new(old: &GrayImage, old_px: &Vector2<f64>, old_from_new: &Matrix2<f64>, half_px: usize) -> Option<Self> {
+        let (side, wide) = (2 * half_px + 1, 2 * half_px + 3);
+        let patch = sample_warped(old, old_px, old_from_new, half_px + 1)?;
+        let zero_dn = (sum(&patch) / patch.len() as f64) as f32;
+        let mut columns = [0; 3].map(|_| Vec::with_capacity(side * side));
+        for v in 1..=side {
+            for at in v * wide + 1..=v * wide + side {
+                columns[0].push(0.5 * (patch[at - 1] - patch[at + 1]));
+                columns[1].push(0.5 * (patch[at - wide] - patch[at + wide]));
+                columns[2].push(patch[at] - zero_dn);
+            }
+        }
+        let [a, b, c] = &columns;
+        let count = (side * side) as f64;
+        let (ab, ac, bc) = (dot(a, b), dot(a, c), dot(b, c));
+        let (sa, sb, sc) = (sum(a), sum(b), sum(c));
+        let normal = Matrix4::new(
+            dot(a, a),
+            ab,
+            ac,
+            sa, //
+            ab,
+            dot(b, b),
+            bc,
+            sb, //
+            ac,
+            bc,
+            dot(c, c),
+            sc, //
+            sa,
+            sb,
+            sc,
+            count,
+        );
+        let variance_dn2 = normal[(2, 2)] / count - (sc / count).powi(2);
+        let inverse = normal.cholesky().filter(|_| variance_dn2 > LEAST_VARIANCE_DN2)?.inverse();
+        Some(Template { side, columns, zero_dn, inverse, variance_dn2 })
+    }
+
+    /// Least squares of the new patch's grey levels: gain · (old patch shifted by the step) + offset.
+    fn fit(&self, here: &[f32]) -> Option<Fit> {
+        let [a, b, c] = &self.columns;
+        let count = here.len() as f64;
+        let right = Vector4::new(dot(a, here), dot(b, here), dot(c, here), sum(here));
+        let squares = dot(here, here);
+        let solution = self.inverse * right;
+        let gain = solution[2];
+        let variance_dn2 = squares / count - (right[3] / count).powi(2);
+        let covariance_dn2 = right[2] / count - right[3] / count * sum(c) / count;
+        let correlation = covariance_dn2 / (variance_dn2 * self.variance_dn2).sqrt().max(1e-9);
+        let misfit_dn2 = ((squares - solution.dot(&right)) / count).max(LEAST_VARIANCE_DN2);
+        let step_px = solution.xy() / gain;
+        let inverse: Matrix2<f64> = self.inverse.fixed_view::<2, 2>(0, 0).into_owned();
+        let covariance_px2 =
+            inverse * (SHARED * misfit_dn2 / gain.powi(2)) + Matrix2::identity() * FLOOR_SIGMA_PX.powi(2);
+        (gain > 0.0 && step_px.norm().is_finite()).then_some(Fit { step_px, covariance_px2, correlation })
+    }
 }
 
-fn sample_patch(picture: &GrayImage, half_px: i32, place: impl Fn(Vector2<f64>) -> Vector2<f64>) -> Option<Vec<f64>> {
-    offsets(half_px).map(|d| sample(picture, &place(d))).collect()
+/// Dot product in eight strands, which the compiler makes vectors of; always in the same order.
+fn dot(a: &[f32], b: &[f32]) -> f64 {
+    let mut strands = [0.0f32; 8];
+    let (a, b) = (a.chunks_exact(8), b.chunks_exact(8));
+    let rest: f32 = a.remainder().iter().zip(b.remainder()).map(|(x, y)| x * y).sum();
+    for (x, y) in a.zip(b) {
+        for k in 0..8 {
+            strands[k] += x[k] * y[k];
+        }
+    }
+    strands.iter().map(|s| f64::from(*s)).sum::<f64>() + f64::from(rest)
 }
 
-/// Bilinear grey level; `None` outside.
-fn sample(picture: &GrayImage, p: &Vector2<f64>) -> Option<f64> {
-    let (u, v) = (p.x.floor(), p.y.floor());
-    if u < 0.0 || v < 0.0 || u + 1.0 >= f64::from(picture.width()) || v + 1.0 >= f64::from(picture.height()) {
+fn sum(a: &[f32]) -> f64 {
+    a.iter().map(|x| f64::from(*x)).sum()
+}
+
+/// Grey levels of a square of `2 half + 1` a side about a place, row by row, bilinear; `None` at the edge.
+fn sample_square(picture: &GrayImage, center_px: &Vector2<f64>, half: usize, out: &mut [f32]) -> Option<()> {
+    let (left, top) = (center_px.x.floor() - half as f64, center_px.y.floor() - half as f64);
+    let side = 2 * half + 1;
+    let (width, height) = (picture.width() as usize, picture.height() as usize);
+    if left < 0.0 || top < 0.0 || left as usize + side >= width || top as usize + side >= height {
         return None;
     }
-    let (fu, fv) = (p.x - u, p.y - v);
-    let at = |i: u32, j: u32| f64::from(picture.get_pixel(u as u32 + i, v as u32 + j).0[0]);
-    Some((at(0, 0) * (1.0 - fu) + at(1, 0) * fu) * (1.0 - fv) + (at(0, 1) * (1.0 - fu) + at(1, 1) * fu) * fv)
+    let (s, t) = ((center_px.x - center_px.x.floor()) as f32, (center_px.y - center_px.y.floor()) as f32);
+    let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t];
+    for (row, line) in out.chunks_exact_mut(side).enumerate() {
+        let at = (top as usize + row) * width + left as usize;
+        let (upper, lower) = (&picture.as_raw()[at..=at + side], &picture.as_raw()[at + width..=at + width + side]);
+        for (i, value) in line.iter_mut().enumerate() {
+            *value = weights[0] * f32::from(upper[i])
+                + weights[1] * f32::from(upper[i + 1])
+                + weights[2] * f32::from(lower[i])
+                + weights[3] * f32::from(lower[i + 1]);
+        }
+    }
+    Some(())
 }
 
-/// One Gauss-Newton step of the shift, and how alike the patches are.
-fn alignment(template: &[f64], new: &GrayImage, pixel: &Vector2<f64>, half_px: i32) -> Option<(Vector2<f64>, Quality)> {
-    let here = sample_patch(new, half_px, |d| pixel + d)?;
-    let side = (2 * half_px + 1) as usize;
-    let (mut normal, mut right) = (nalgebra::Matrix4::<f64>::zeros(), Vector4::zeros());
-    for index in interior(side) {
-        let slope = Vector2::new(here[index + 1] - here[index - 1], here[index + side] - here[index - side]) * 0.5;
-        let row = Vector4::new(slope.x, slope.y, -template[index], -1.0);
-        normal += row * row.transpose();
-        right -= row * here[index];
+/// Grey levels of a warped square of `2 half + 1` a side, row by row, bilinear; `None` at the edge.
+fn sample_warped(
+    picture: &GrayImage,
+    center_px: &Vector2<f64>,
+    linear: &Matrix2<f64>,
+    half: usize,
+) -> Option<Vec<f32>> {
+    let reach = half as f64;
+    let corners = [(-reach, -reach), (reach, -reach), (-reach, reach), (reach, reach)];
+    let (width, height) = (picture.width() as usize, picture.height() as usize);
+    let inside = |(u, v): &(f64, f64)| {
+        let p = center_px + linear * Vector2::new(*u, *v);
+        p.x >= 0.0 && p.y >= 0.0 && p.x + 1.0 < width as f64 && p.y + 1.0 < height as f64
+    };
+    if !corners.iter().all(inside) {
+        return None;
     }
-    // here(p + s) = gain * template + offset.
-    let solution = normal.cholesky()?.solve(&right);
-    let (gain, offset) = (solution[2], solution[3]);
-    let shift = Vector2::new(solution[0], solution[1]);
-    let count = interior(side).count() as f64;
-    let mut moments = Matrix3::zeros();
-    let mut misfit = 0.0;
-    for index in interior(side) {
-        let m = Vector3::new(1.0, here[index], template[index]);
-        moments += m * m.transpose();
-        misfit += (here[index] - gain * template[index] - offset).powi(2);
+    let grey = picture.as_raw();
+    let side = 2 * half + 1;
+    let mut out = Vec::with_capacity(side * side);
+    for row in 0..side {
+        let start = center_px + linear * Vector2::new(-reach, row as f64 - reach);
+        for column in 0..side {
+            let p = start + linear.column(0) * column as f64;
+            let (u, v) = (p.x as usize, p.y as usize);
+            let (s, t) = ((p.x - u as f64) as f32, (p.y - v as f64) as f32);
+            let at = (v.min(height - 2)) * width + u.min(width - 2);
+            let level = |k: usize| f32::from(grey[at + k]);
+            let upper = level(0) + s * (level(1) - level(0));
+            let lower = level(width) + s * (level(width + 1) - level(width));
+            out.push(upper + t * (lower - upper));
+        }
     }
-    let covariance = |i: usize, j: usize| moments[(i, j)] / count - moments[(0, i)] * moments[(0, j)] / (count * count);
-    let correlation = covariance(1, 2) / (covariance(1, 1) * covariance(2, 2)).sqrt().max(1e-9);
-    let inverse = normal.try_inverse()?;
-    // Neighbouring grey levels share their noise and the warp's error: count one in four as independent.
-    let variance = (4.0 * misfit / count).max(0.1);
-    let sigma_px = (variance * 0.5 * (inverse[(0, 0)] + inverse[(1, 1)])).sqrt().max(0.05);
-    (shift.norm().is_finite() && sigma_px < 1.0).then_some((shift, Quality { correlation, sigma_px }))
-}
-
-fn interior(side: usize) -> impl Iterator<Item = usize> {
-    (1..side - 1).flat_map(move |v| (1..side - 1).map(move |u| v * side + u))
+    Some(out)
 }

@@ -4,6 +4,7 @@
 //! as scale changes a corner wanders over the ground. Aligning the patch of the first picture, warped by the local affine
 //! map of the matches, with the second one is several times more exact and does not wander.
 
+use super::KltConfig;
 use super::frame_features::PairPixels;
 use super::local_affine::{Affine, Match, fit_affine};
 use super::patch::refine_by_patch;
@@ -11,8 +12,6 @@ use image::GrayImage;
 use nalgebra::{Matrix2, Vector2};
 use rayon::prelude::*;
 
-/// Half the patch's side, px.
-const HALF_PX: i32 = 8;
 /// A patch that leads further than this from the matched corner follows something else, px.
 const FARTHEST_PX: f64 = 2.0;
 /// Fewest neighbours that give an affine map.
@@ -30,19 +29,28 @@ pub(super) struct Link {
 }
 
 /// A link for each match that agrees with the motion; `None` where the patches do not settle it.
-pub(super) fn sharpen(pictures: (&GrayImage, &GrayImage), pixels: &PairPixels, inliers: &[bool]) -> Vec<Option<Link>> {
+pub(super) fn sharpen(
+    pictures: (&GrayImage, &GrayImage),
+    (pixels, inliers): (&PairPixels, &[bool]),
+    klt: &KltConfig,
+) -> Vec<Option<Link>> {
     let matches: Vec<Match> = (0..pixels.sigma_px.len())
         .map(|i| (pixels.pair.from_px[i], pixels.pair.to_px[i], std::f64::consts::SQRT_2 * pixels.sigma_px[i]))
         .collect();
     let agreeing: Vec<Match> = matches.iter().zip(inliers).filter(|(_, inlier)| **inlier).map(|(m, _)| *m).collect();
-    let link = |(m, inlier): (&Match, &bool)| if *inlier { link(pictures, m, &agreeing) } else { None };
+    let link = |(m, inlier): (&Match, &bool)| if *inlier { link(pictures, m, &agreeing, klt) } else { None };
     matches.par_iter().zip(inliers).map(link).collect()
 }
 
-fn link((old, new): (&GrayImage, &GrayImage), (from_px, to_px, _): &Match, agreeing: &[Match]) -> Option<Link> {
+fn link(
+    (old, new): (&GrayImage, &GrayImage),
+    (from_px, to_px, _): &Match,
+    agreeing: &[Match],
+    klt: &KltConfig,
+) -> Option<Link> {
     let linear = fit_affine(from_px, agreeing, FEWEST)?.affine.linear;
-    let start = Affine { linear, shift: to_px - linear * from_px };
-    let refined = refine_by_patch((old, new), from_px, &start, HALF_PX)?;
+    let start = Affine::about(from_px, to_px, linear);
+    let refined = refine_by_patch((old, new), from_px, &start, klt)?;
     let near = (refined.pixel_px - to_px).norm() < FARTHEST_PX;
-    near.then_some(Link { to_px: refined.pixel_px, sigma_px: refined.sigma_px, linear })
+    near.then_some(Link { to_px: refined.pixel_px, sigma_px: refined.sigma_px(), linear })
 }

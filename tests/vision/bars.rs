@@ -1,0 +1,3 @@
+//! What the front end promises, measured on rendered pictures against their truth.
+
+mod localisation;
