@@ -42,6 +42,7 @@ mod terrain_rock;
 mod terrain_scatter;
 mod terrain_site;
 mod terrain_sizes;
+mod terrain_softened;
 mod terrain_unit;
 mod truth_config;
 mod tumbling;

@@ -3,6 +3,7 @@
 use super::noise::NOISE_2D_STEEPEST;
 use super::noise_table::NoiseTable;
 use super::terrain_features::TerrainFeatures;
+use super::terrain_softened::Softened;
 use super::terrain_unit::DISPLACEMENT;
 use super::{
     CraterClass, FeatureSample, GroundBase, HummockClass, NoiseOctave, OctaveStrength, Photometry, RippleClass,
@@ -97,17 +98,20 @@ impl Terrain {
     /// The ground at a place in m with chosen details.
     pub fn sample(&self, x_m: f64, y_m: f64, detail: &GroundDetail) -> GroundSample {
         let mut features = FeatureSample::default();
+        let at = Vector2::new(x_m, y_m);
         for class in self.craters(detail) {
-            class.scatter.near(x_m, y_m).for_each(|f| class.crater(&f).add_to(&mut features, x_m, y_m));
+            let shown = |f| Softened::new(class.crater(&f), detail.feature_m);
+            class.scatter.near(x_m, y_m).for_each(|f| shown(f).add_to(&mut features, &at));
         }
         for class in self.rocks(detail) {
-            class.scatter.near(x_m, y_m).for_each(|f| class.rock(&f).add_to(&mut features, x_m, y_m));
+            let shown = |f| Softened::new(class.rock(&f), detail.feature_m);
+            class.scatter.near(x_m, y_m).for_each(|f| shown(f).add_to(&mut features, &at));
         }
-        let at = Vector2::new(x_m, y_m);
         for class in self.hummocks(detail) {
-            class.scatter.near(x_m, y_m).for_each(|f| class.hummock(&f).add_to(&mut features, &at));
+            let shown = |f| Softened::new(class.hummock(&f), detail.feature_m);
+            class.scatter.near(x_m, y_m).for_each(|f| shown(f).add_to(&mut features, &at));
         }
-        self.ripples(detail).for_each(|class| class.add_to(&mut features, &at, [None, None]));
+        self.ripples(detail).for_each(|class| class.add_to(&mut features, &at, ([None, None], detail)));
         let ground = OctaveSums::new(self, &[], &at, detail);
         self.units(detail).for_each(|class| class.add_to(&mut features, &at, (None, detail), &ground));
         self.with_features(&ground, &features)
@@ -181,6 +185,9 @@ fn visibility(wavelength_m: f64, footprint_m: f64) -> f64 {
 /// No terrain has more octaves: halvings from the largest to the smallest wavelength that a configuration may ask for.
 const MOST_OCTAVES: usize = 32;
 
+/// Size of the evaluated details over the wavelength of the finest octave that displaces contacts.
+const FINEST_DISPLACING: f64 = 8.0;
+
 /// What the octaves of a terrain add up to at one place.
 #[derive(Debug)]
 pub(super) struct OctaveSums<'a> {
@@ -188,7 +195,10 @@ pub(super) struct OctaveSums<'a> {
     octaves: &'a [NoiseOctave],
     tables: &'a [Option<NoiseTable>],
     at: Vector2<f64>,
+    /// Octaves in the relief.
     count: usize,
+    /// Octaves that displace contacts: more than those in the relief, or contacts would move as finer relief is evaluated.
+    displacing: usize,
     displacement_m: [f64; MOST_OCTAVES],
 }
 
@@ -207,6 +217,7 @@ impl<'a> OctaveSums<'a> {
             tables,
             at: *at,
             count: 0,
+            displacing: terrain.octaves.partition_point(|o| o.wavelength_m * FINEST_DISPLACING >= detail.height_m),
             displacement_m: [0.0; MOST_OCTAVES],
         };
         for octave in terrain.octaves.iter().take(MOST_OCTAVES) {
@@ -236,7 +247,7 @@ impl<'a> OctaveSums<'a> {
 
     /// How much the displacement of contacts by the octaves from `first` on can change within a distance, in m.
     pub(super) fn displacement_change_m(&self, first: usize, within_m: f64) -> f64 {
-        let octaves = self.octaves.iter().take(self.count).skip(first);
+        let octaves = self.octaves.iter().take(self.displacing).skip(first);
         octaves.map(|o| DISPLACEMENT * (NOISE_2D_STEEPEST * within_m).min(2.0 * o.wavelength_m)).sum()
     }
 
@@ -251,10 +262,14 @@ impl<'a> OctaveSums<'a> {
 
     /// Displacement in m of contacts by the octaves from `first` on.
     pub(super) fn displacement_m(&self, first: usize) -> f64 {
-        self.displacement_m[first.min(self.count)..self.count].iter().sum()
+        let coarse_m: f64 = self.displacement_m[first.min(self.count)..self.count].iter().sum();
+        let fine = self.octaves.iter().take(self.displacing).skip(first.max(self.count));
+        let fine_m =
+            |o: &NoiseOctave| DISPLACEMENT * o.wavelength_m * o.values_planar_from(None, self.at.x, self.at.y)[1];
+        coarse_m + fine.map(fine_m).sum::<f64>()
     }
 
-    /// Gradient of [`OctaveSums::displacement_m`].
+    /// Gradient of [`OctaveSums::displacement_m`] by the octaves in the relief.
     pub(super) fn displacement_gradient(&self, first: usize) -> Vector2<f64> {
         let octaves = self.octaves.iter().enumerate().take(self.count).skip(first);
         octaves

@@ -4,6 +4,7 @@ use super::FeatureSample;
 use super::terrain_bins::Bounded;
 use super::terrain_scatter::{Feature, Scatter};
 use super::terrain_site::at_most;
+use super::terrain_softened::Spreadable;
 use nalgebra::Vector2;
 
 /// Hummocks of one octave of diameters.
@@ -52,9 +53,22 @@ impl Bounded for Hummock {
     }
 }
 
-impl Hummock {
-    /// Adds what the hummock does to a place (m): (1 - t²)² of its height at `t` radii, times a tilted plane.
-    pub(super) fn add_to(&self, total: &mut FeatureSample, at: &Vector2<f64>) {
+impl Spreadable for Hummock {
+    fn radius_m(&self) -> f64 {
+        1.0 / self.per_radius_1_m
+    }
+
+    fn spread(&self, growth: f64, strength: f64) -> Self {
+        Hummock {
+            per_radius_1_m: self.per_radius_1_m / growth,
+            height_m: self.height_m * strength,
+            albedo: self.albedo * strength,
+            ..*self
+        }
+    }
+
+    /// (1 - t²)² of the height at `t` radii, times a tilted plane.
+    fn add_to(&self, total: &mut FeatureSample, at: &Vector2<f64>) {
         let from_center = (at - self.center_m) * self.per_radius_1_m;
         let inside = 1.0 - from_center.norm_squared();
         if inside <= 0.0 {

@@ -7,6 +7,7 @@ use super::terrain_bins::Bins;
 use super::terrain_hummock::Hummock;
 use super::terrain_ripple::RippleTables;
 use super::terrain_rock::Rock;
+use super::terrain_softened::Softened;
 use super::{FeatureSample, GroundDetail, GroundSample, RippleClass, Terrain, UnitClass};
 use nalgebra::Vector2;
 
@@ -15,9 +16,9 @@ use nalgebra::Vector2;
 pub struct TerrainPatch<'a> {
     terrain: &'a Terrain,
     detail: GroundDetail,
-    craters: Bins<Crater>,
-    rocks: Bins<Rock>,
-    hummocks: Bins<Hummock>,
+    craters: Bins<Softened<Crater>>,
+    rocks: Bins<Softened<Rock>>,
+    hummocks: Bins<Softened<Hummock>>,
     ripples: Vec<(&'a RippleClass, RippleTables)>,
     units: Vec<(&'a UnitClass, UnitTable)>,
     octaves: Vec<Option<NoiseTable>>,
@@ -43,12 +44,17 @@ impl Terrain {
             Some(side) => UnitTable::Side(side),
             None => UnitTable::Crossed(table(&unit.field)),
         };
-        let craters =
-            self.craters(detail).flat_map(|c| c.scatter.within(low_m, high_m).into_iter().map(|f| c.crater(&f)));
-        let rocks = self.rocks(detail).flat_map(|r| r.scatter.within(low_m, high_m).into_iter().map(|f| r.rock(&f)));
+        let craters = self.craters(detail).flat_map(|c| {
+            let found = c.scatter.within(low_m, high_m);
+            found.into_iter().map(|f| Softened::new(c.crater(&f), detail.feature_m))
+        });
+        let rocks = self.rocks(detail).flat_map(|r| {
+            let found = r.scatter.within(low_m, high_m);
+            found.into_iter().map(|f| Softened::new(r.rock(&f), detail.feature_m))
+        });
         let hummocks = self.hummocks(detail).flat_map(|h| {
             let found = h.scatter.within(low_m, high_m);
-            found.into_iter().map(|f| h.hummock(&f))
+            found.into_iter().map(|f| Softened::new(h.hummock(&f), detail.feature_m))
         });
         let ripples = self.ripples(detail).filter(|r| r.may_lie_around(&middle, within_m));
         TerrainPatch {
@@ -69,11 +75,11 @@ impl TerrainPatch<'_> {
     pub fn sample(&self, x_m: f64, y_m: f64) -> GroundSample {
         let at = Vector2::new(x_m, y_m);
         let mut features = FeatureSample::default();
-        self.craters.near(&at).iter().for_each(|crater| crater.add_to(&mut features, x_m, y_m));
-        self.rocks.near(&at).iter().for_each(|rock| rock.add_to(&mut features, x_m, y_m));
+        self.craters.near(&at).iter().for_each(|crater| crater.add_to(&mut features, &at));
+        self.rocks.near(&at).iter().for_each(|rock| rock.add_to(&mut features, &at));
         self.hummocks.near(&at).iter().for_each(|hummock| hummock.add_to(&mut features, &at));
         for (class, [cover, bend]) in &self.ripples {
-            class.add_to(&mut features, &at, [cover.as_ref(), bend.as_ref()]);
+            class.add_to(&mut features, &at, ([cover.as_ref(), bend.as_ref()], &self.detail));
         }
         let ground = OctaveSums::new(self.terrain, &self.octaves, &at, &self.detail);
         for (class, table) in &self.units {

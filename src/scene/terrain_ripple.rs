@@ -1,6 +1,7 @@
 //! Ripples: patches of wind-blown sand in parallel waves with rounded troughs and narrower crests.
 
 use super::FeatureSample;
+use super::GroundDetail;
 use super::NoiseOctave;
 use super::noise::NOISE_2D_STEEPEST;
 use super::noise_table::NoiseTable;
@@ -45,7 +46,12 @@ impl RippleClass {
     const EDGE: f64 = 0.12;
 
     /// Adds what the ripples do to a place (m).
-    pub(super) fn add_to(&self, total: &mut FeatureSample, at: &Vector2<f64>, tables: [Option<&NoiseTable>; 2]) {
+    pub(super) fn add_to(
+        &self,
+        total: &mut FeatureSample,
+        at: &Vector2<f64>,
+        (tables, detail): ([Option<&NoiseTable>; 2], &GroundDetail),
+    ) {
         let [cover, _] = self.cover.values_planar_from(tables[0], at.x, at.y);
         // The bending field cannot exceed 1.
         if cover + Self::COVER_BY_BEND <= self.least_cover {
@@ -68,9 +74,22 @@ impl RippleClass {
         let (wave, wave_slope) = (half * half, -half * sin * TAU);
         let (height_m, height_gradient) = grown_from_site(self.height_m, self.site_slope, at);
         total.height_m += height_m * sand * wave;
-        total.gradient +=
+        let gradient =
             height_gradient * (sand * wave) + (sand_gradient * wave + phase_gradient * (wave_slope * sand)) * height_m;
-        total.albedo += self.albedo_contrast * sand * (wave - 0.375);
+        let shown = self.shown(detail);
+        total.gradient += gradient * shown;
+        total.albedo += self.albedo_contrast * sand * (wave - 0.375) * shown;
+    }
+
+    /// How much of the waves shading shows: waves that details barely resolve would beat with them.
+    fn shown(&self, detail: &GroundDetail) -> f64 {
+        const NOTHING: f64 = 1.25;
+        const ALL: f64 = 3.0;
+        if detail.feature_m <= 0.0 {
+            return 1.0;
+        }
+        let t = ((self.wavelength_m / detail.feature_m - NOTHING) / (ALL - NOTHING)).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
     }
 
     /// Whether sand may lie within a distance of a place (both in m).

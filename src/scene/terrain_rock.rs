@@ -4,6 +4,7 @@ use super::FeatureSample;
 use super::terrain_bins::Bounded;
 use super::terrain_scatter::{Feature, Scatter};
 use super::terrain_site::at_most;
+use super::terrain_softened::Spreadable;
 use nalgebra::{Rotation2, Vector2};
 
 /// Rocks of one octave of diameters.
@@ -39,7 +40,7 @@ const OUTLINE_AREA: f64 = 1.0732;
 impl RockClass {
     /// Adds what one rock does to a place (m).
     pub fn add(&self, feature: &Feature, total: &mut FeatureSample, x_m: f64, y_m: f64) {
-        self.rock(feature).add_to(total, x_m, y_m);
+        self.rock(feature).add_to(total, &Vector2::new(x_m, y_m));
     }
 
     /// One rock, ready to be added to places.
@@ -79,11 +80,25 @@ impl Bounded for Rock {
     }
 }
 
-impl Rock {
-    /// Adds what the rock does to a place (m). With (x, y) in the outline's axes, the outline is 1 = x⁴ + y⁴ + x²y², a
-    /// rounded square; heights fall as 1 minus that, times a tilted plane.
-    pub(super) fn add_to(&self, total: &mut FeatureSample, x_m: f64, y_m: f64) {
-        let from_center = Vector2::new(x_m - self.center_m.x, y_m - self.center_m.y);
+impl Spreadable for Rock {
+    fn radius_m(&self) -> f64 {
+        self.reach_squared_m2.sqrt()
+    }
+
+    fn spread(&self, growth: f64, strength: f64) -> Self {
+        Rock {
+            reach_squared_m2: self.reach_squared_m2 * growth * growth,
+            unit_from_site: self.unit_from_site / growth,
+            height_m: self.height_m * strength,
+            albedo: self.albedo * strength,
+            ..*self
+        }
+    }
+
+    /// With (x, y) in the outline's axes, the outline is 1 = x⁴ + y⁴ + x²y², a rounded square; heights fall as 1 minus
+    /// that, times a tilted plane.
+    fn add_to(&self, total: &mut FeatureSample, at: &Vector2<f64>) {
+        let from_center = at - self.center_m;
         if from_center.norm_squared() >= self.reach_squared_m2 {
             return;
         }

@@ -76,7 +76,7 @@ fn rendered(renderer: &mut Renderer, terrain: &Terrain, number: usize, height_m:
 /// Slope of the spectrum, kurtosis of gradients, spread of grey levels, number of Harris features.
 fn row(picture: &GrayImage) -> [f64; 4] {
     let statistics = PictureStatistics::of(picture).expect("a picture with texture");
-    let detector = DetectorConfig { max_features: 100_000, ..DetectorConfig::default() };
+    let detector = DetectorConfig { max_features: 100_000, max_peak_width_px: 1e9, ..DetectorConfig::default() };
     let features = detect_harris(picture, None, &detector).expect("features").len();
     let PictureStatistics { spectrum_slope, gradient_kurtosis, grey_spread_dn } = statistics;
     [spectrum_slope, gradient_kurtosis, grey_spread_dn, features as f64]
