@@ -151,9 +151,9 @@ impl Terrain {
         self.features.ripples.iter().take_while(move |r| r.wavelength_m >= shortest_m)
     }
 
-    /// Classes of geological units that a choice of details shows: those of which patches are many such features wide.
+    /// Classes of geological units that a choice of details shows.
     pub(super) fn units(&self, detail: &GroundDetail) -> impl Iterator<Item = &UnitClass> {
-        let smallest_m = 4.0 * detail.feature_m;
+        let smallest_m = UnitClass::SMALLEST_SHOWN * detail.feature_m;
         self.features.units.iter().take_while(move |u| u.field.wavelength_m >= smallest_m)
     }
 

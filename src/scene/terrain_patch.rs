@@ -84,7 +84,7 @@ impl TerrainPatch<'_> {
         let ground = OctaveSums::new(self.terrain, &self.octaves, &at, &self.detail);
         for (class, table) in &self.units {
             match table {
-                UnitTable::Side(side) => class.add_side_to(&mut features, &at, *side),
+                UnitTable::Side(side) => class.add_side_to(&mut features, &at, (*side, &self.detail)),
                 UnitTable::Crossed(table) => class.add_to(&mut features, &at, (table.as_ref(), &self.detail), &ground),
             }
         }

@@ -39,6 +39,9 @@ pub(super) const LARGEST_DISPLACING: f64 = 0.45;
 pub(super) const HALF_WIDTH: f64 = 1.3;
 
 impl UnitClass {
+    /// Wavelength over the size of details from which on units are evaluated.
+    pub(super) const SMALLEST_SHOWN: f64 = 1.25;
+
     /// Adds what the units do to a place (m).
     pub(super) fn add_to(
         &self,
@@ -54,28 +57,45 @@ impl UnitClass {
         let half_width_m = self.half_width_m.hypot(detail.height_m).max(1e-3);
         let across = distance_m / half_width_m;
         if across.abs() >= 1.0 {
-            self.add_side_to(total, at, 0.5_f64.copysign(across));
+            self.add_side_to(total, at, (0.5_f64.copysign(across), detail));
             return;
         }
         let flat = 1.0 - across * across;
         let side = across * (0.75 - 0.25 * across * across);
-        self.add_side_to(total, at, side);
+        self.add_side_to(total, at, (side, detail));
+        let shown = self.shown(detail);
         // The face fades with the width that its slope is spread over.
-        total.albedo += self.face_contrast * flat * flat * (self.half_width_m / half_width_m);
+        total.albedo += self.face_contrast * flat * flat * (self.half_width_m / half_width_m) * shown;
         if self.scarp_m > 0.0 {
             let field_gradient = self.field.sample_planar_from(table, at.x, at.y).relief_gradient.xy();
             let distance_gradient = field_gradient * per_field_m + ground.displacement_gradient(self.first_octave);
             let (scarp_m, _) = grown_from_site(self.scarp_m, self.site_slope, at);
-            total.gradient += distance_gradient * (scarp_m * 0.75 * flat / half_width_m);
+            total.gradient += distance_gradient * (scarp_m * 0.75 * flat / half_width_m * shown);
         }
     }
 
     /// Adds what a place (m) has of the upper (0.5) or lower (-0.5) unit, apart from the contact's own slope.
-    pub(super) fn add_side_to(&self, total: &mut FeatureSample, at: &Vector2<f64>, side: f64) {
+    pub(super) fn add_side_to(
+        &self,
+        total: &mut FeatureSample,
+        at: &Vector2<f64>,
+        (side, detail): (f64, &GroundDetail),
+    ) {
         let (scarp_m, scarp_gradient) = grown_from_site(self.scarp_m, self.site_slope, at);
+        let shown = self.shown(detail);
         total.height_m += scarp_m * side;
-        total.gradient += scarp_gradient * side;
-        total.albedo += self.contrast * side;
+        total.gradient += scarp_gradient * (side * shown);
+        total.albedo += self.contrast * side * shown;
+    }
+
+    /// How much of the units shading shows: patches that details barely resolve come in little by little.
+    fn shown(&self, detail: &GroundDetail) -> f64 {
+        const ALL: f64 = 5.0;
+        if detail.feature_m <= 0.0 {
+            return 1.0;
+        }
+        let sizes = self.field.wavelength_m / detail.feature_m;
+        ((sizes - UnitClass::SMALLEST_SHOWN) / (ALL - UnitClass::SMALLEST_SHOWN)).clamp(0.0, 1.0)
     }
 
     /// The side on which all places within a distance of a place lie, for [`UnitClass::add_side_to`]; `None` if a contact

@@ -49,7 +49,7 @@ pub(super) fn refine_by_patch(
         here.iter_mut().for_each(|level| *level -= template.zero_dn);
         let fit = template.fit(&here)?;
         pixel_px += fit.step_px;
-        if !((pixel_px - start_px).norm() <= config.max_off_px) {
+        if (pixel_px - start_px).norm() > config.max_off_px || !pixel_px.x.is_finite() {
             return None;
         }
         if fit.step_px.norm() < SETTLED_PX {
