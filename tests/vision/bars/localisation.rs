@@ -118,7 +118,7 @@ fn measure(heights_m: &[f64], noises: &[usize], shift_px: Vector2<f64>) -> Vec<B
 
 pub fn bars(extent: Extent) -> Vec<Bar> {
     match extent {
-        Extent::Small => measure(&[400.0], &[1], Vector2::zeros()),
+        Extent::Small => measure(&[5000.0, 30.0], &[1], Vector2::zeros()),
         Extent::Full => measure(&HEIGHTS_M, &[0, 1, 2], Vector2::zeros()),
     }
 }
