@@ -38,11 +38,13 @@ impl Descent {
         firsts.filter(|k| self.accepted(*k, k + 1).is_some()).count() as f64
     }
 
-    /// By how much the rotations of three pictures in a row do not close, degrees.
-    fn loop_deg(&self, first: usize) -> Option<f64> {
+    /// By how much the rotations of three pictures in a row do not close, degrees; and by how much if the second were the
+    /// wrong way round.
+    fn loop_deg(&self, first: usize) -> Option<[f64; 2]> {
         let [a, b, c] =
             [(first, first + 1), (first + 1, first + 2), (first, first + 2)].map(|(i, j)| self.accepted(i, j));
-        Some((b? * a?).angle_to(&c?).to_degrees())
+        let (a, b, c) = (a?, b?, c?);
+        Some([b, b.inverse()].map(|b| (b * a).angle_to(&c).to_degrees()))
     }
 }
 
@@ -54,8 +56,12 @@ fn descent(folder: PathBuf) -> Descent {
 }
 
 fn bars(descent: &Descent) -> Vec<Bar> {
-    let loops: Vec<f64> = (*LOOPS.start()..=LOOPS.end() - 2).filter_map(|k| descent.loop_deg(k)).collect();
+    let (loops, reversed): (Vec<f64>, Vec<f64>) = (*LOOPS.start()..=LOOPS.end() - 2)
+        .filter_map(|k| descent.loop_deg(k))
+        .map(|[right, wrong]| (right, wrong))
+        .unzip();
     let share = |share: f64| percentile(&loops, share).unwrap_or(f64::NAN);
+    let wrong = percentile(&reversed, 0.5).unwrap_or(f64::NAN);
     let worst = loops.iter().copied().fold(0.0, f64::max);
     vec![
         Bar::at_least("consecutive pairs accepted, of 86", descent.accepted_among(1..=86), 60.0, "pairs"),
@@ -65,6 +71,7 @@ fn bars(descent: &Descent) -> Vec<Bar> {
         Bar::at_most("loops of three, pictures 26 to 70: median", share(0.5), 0.04, "degrees"),
         Bar::at_most("loops of three, pictures 26 to 70: 90th percentile", share(0.9), 0.5, "degrees"),
         Bar::stated("loops of three, pictures 26 to 70: worst", worst, "degrees"),
+        Bar::at_least("the same loops with a pair the wrong way round: median", wrong, 1.0, "degrees"),
     ]
 }
 
