@@ -1,6 +1,6 @@
 //! Every reader of files against damaged ones: no panic, no endless work, and an error that names the file.
 //!
-//! `cargo test` runs a thousand files a reader, always the same ones; `make fuzz` goes on for ten minutes a reader
+//! `cargo test` runs some hundreds of files a reader, always the same ones; `make fuzz` goes on for ten minutes a reader
 //! (`FUZZ_SECONDS`) with the seed in `FUZZ_SEED`. A file that breaks a reader is kept, and its place is printed.
 
 mod bodies;

@@ -54,6 +54,9 @@ pub fn read_tum(path: &Path) -> Result<Vec<StampedPose>, DatasetError> {
         if q.norm() < 1e-6 {
             return Err(malformed("the quaternion is zero".into()));
         }
+        if q.norm() > 1e6 {
+            return Err(malformed(format!("the quaternion's length is {}, 1 expected", q.norm())));
+        }
         let t_ns = seconds_to_ns(fields[0]).ok_or_else(|| malformed(format!("'{}' is not a time", fields[0])))?;
         if poses.last().is_some_and(|last| last.t_ns >= t_ns) {
             return Err(malformed("time does not come after the one before it".into()));

@@ -1,7 +1,7 @@
 //! Damaged files that once broke a reader.
 
 use opnav::dataset::truth::read_flow;
-use opnav::dataset::{CameraSource, ImageSequence};
+use opnav::dataset::{CameraSource, ImageSequence, read_tum};
 use opnav::scene::{Mesh, Raster, RasterFile};
 
 fn folder() -> tempfile::TempDir {
@@ -30,6 +30,26 @@ fn a_geotiff_with_an_endless_tag() {
     std::fs::write(dir.path().join("map.tif"), bytes).expect("a file");
     let error = Raster::read(&RasterFile::from_path("map.tif"), dir.path()).expect_err("refused").to_string();
     assert!(error.contains("map.tif"), "{error}");
+}
+
+/// The square of the quaternion's length overflowed, and the pose that was read had none.
+#[test]
+fn a_trajectory_with_an_endless_quaternion() {
+    let dir = folder();
+    let path = dir.path().join("a.tum");
+    std::fs::write(&path, "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1e308\n").expect("a file");
+    let error = read_tum(&path).expect_err("refused").to_string();
+    assert!(error.ends_with("a.tum, line 2: the quaternion's length is inf, 1 expected"), "{error}");
+}
+
+/// The label was not named, only the place that it points to.
+#[test]
+fn a_label_that_points_to_a_folder() {
+    let dir = folder();
+    let label = include_str!("../../datasets/mola/coprates.lbl").replace("COPRATES.IMG", "/");
+    std::fs::write(dir.path().join("coprates.lbl"), label).expect("a file");
+    let error = Raster::read(&RasterFile::from_path("coprates.lbl"), dir.path()).expect_err("refused").to_string();
+    assert!(error.contains("coprates.lbl: its image / cannot be read (Is a directory"), "{error}");
 }
 
 /// The number of a texture coordinate overflowed in the library that reads the file.

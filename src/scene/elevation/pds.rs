@@ -28,10 +28,9 @@ pub(super) fn read(path: &Path, bytes: Vec<u8>, wanted: bool) -> Result<FileRast
         None => values(&label, &layout, &bytes).map_err(unusable)?,
         Some(name) => {
             let image_path = beside(&label_path, name);
-            let bytes = std::fs::read(&image_path).map_err(|source| SceneError::Io {
-                action: "read the image of a PDS label",
-                path: image_path.clone(),
-                source,
+            let bytes = std::fs::read(&image_path).map_err(|error| {
+                let image = image_path.display();
+                unusable(format!("its image {image} cannot be read ({error}): put it beside the label"))
             })?;
             values(&label, &layout, &bytes)
                 .map_err(|problem| SceneError::Unusable { path: image_path.clone(), problem })?
