@@ -1,6 +1,7 @@
 //! Figures beside their bounds: cheap in the ordinary tests, in full as tables of `make accuracy`.
 
 /// How much is measured.
+#[cfg(feature = "render")]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Extent {
     /// Enough to notice a fault.
@@ -70,6 +71,7 @@ fn figure(value: f64) -> String {
 }
 
 /// Prints the bars and fails if one does not hold.
+#[cfg(feature = "render")]
 pub fn check(bars: &[Bar]) {
     bars.iter().for_each(|bar| println!("{}", bar.row()));
     let failed: Vec<String> = bars.iter().filter(|bar| !bar.holds()).map(Bar::row).collect();

@@ -77,7 +77,7 @@ impl Camera {
             }
         }
         for corner in self.corners_px() {
-            if self.unproject(&corner).is_none() {
+            if self.unproject(&corner).is_none_or(|bearing| !bearing.iter().all(|c| c.is_finite())) {
                 return Err(CameraError::NotInvertible { u_px: corner.x, v_px: corner.y });
             }
         }

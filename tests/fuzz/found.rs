@@ -1,7 +1,7 @@
 //! Damaged files that once broke a reader.
 
 use opnav::dataset::truth::read_flow;
-use opnav::dataset::{CameraSource, ImageSequence, read_tum};
+use opnav::dataset::{CameraSource, ImageSequence, read_camera_sensor, read_tum};
 use opnav::scene::{Mesh, Raster, RasterFile};
 
 fn folder() -> tempfile::TempDir {
@@ -40,6 +40,33 @@ fn a_trajectory_with_an_endless_quaternion() {
     std::fs::write(&path, "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1e308\n").expect("a file");
     let error = read_tum(&path).expect_err("refused").to_string();
     assert!(error.ends_with("a.tum, line 2: the quaternion's length is inf, 1 expected"), "{error}");
+}
+
+/// A fourth number made the vertex one at no place.
+#[test]
+fn a_shape_with_a_vertex_of_four_numbers() {
+    let dir = folder();
+    let path = dir.path().join("body.obj");
+    std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 2 4\n1 0\nv 0 0 2 NaN\nf 2 3 4\n").expect("a file");
+    if let Ok(mesh) = Mesh::read(&path, 1.0) {
+        assert!(mesh.vertices_m.iter().flatten().all(|c| c.is_finite()), "{mesh:?}");
+    }
+    std::fs::write(&path, "v 0 0 0\nv 1e300 0 0\nv 0 1 0\nf 1 2 3\n").expect("a file");
+    let error = Mesh::read(&path, 1e10).expect_err("refused").to_string();
+    assert!(
+        error.ends_with("body.obj: vertex 2 is not at a finite place: give it three coordinates in range"),
+        "{error}"
+    );
+}
+
+/// The focal length was positive, and too small to divide by.
+#[test]
+fn a_camera_of_no_focal_length() {
+    let dir = folder();
+    let path = dir.path().join("sensor.yaml");
+    std::fs::write(&path, "resolution: [64, 48]\nintrinsics: [1e-320, 60, 32, 24]\n").expect("a file");
+    let error = read_camera_sensor(&path).expect_err("refused").to_string();
+    assert!(error.contains("sensor.yaml: the distortion cannot be inverted at pixel (-0.5, -0.5)"), "{error}");
 }
 
 /// The label was not named, only the place that it points to.

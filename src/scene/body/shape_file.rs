@@ -72,6 +72,7 @@ impl ShapeFile {
             None => Err(ShapeFault::Whole("it is no shape file: give one in OBJ, PLY or STL".into())),
         }
         .map_err(|fault| fault.in_file(path))?;
+        check_places(&shape.mesh).map_err(|fault| fault.in_file(path))?;
         check_areas(&shape.mesh).map_err(|fault| fault.in_file(path))?;
         Ok(shape)
     }
@@ -89,6 +90,20 @@ fn format_of(path: &Path, content: &[u8]) -> Option<Format> {
         _ if content.starts_with(b"solid") || stl::is_binary(content) => Some(Format::Stl),
         _ if content.starts_with(b"v ") || content.windows(3).any(|w| w == b"\nv ") => Some(Format::Obj),
         _ => None,
+    }
+}
+
+/// Libraries read more than three numbers of a vertex in ways of their own, and a scale may overflow.
+fn check_places(mesh: &Mesh) -> Result<(), ShapeFault> {
+    let finite = |place: &nalgebra::Vector3<f64>| place.iter().all(|c| c.is_finite());
+    match mesh.vertices_m.iter().position(|place| !finite(place)) {
+        Some(index) => {
+            let vertex = index + 1;
+            Err(ShapeFault::Whole(format!(
+                "vertex {vertex} is not at a finite place: give it three coordinates in range"
+            )))
+        }
+        None => Ok(()),
     }
 }
 
