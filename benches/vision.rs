@@ -56,6 +56,14 @@ fn front_end(criterion: &mut Criterion) {
     criterion.bench_function("match 2000 x 2000 within 60 px", |bench| {
         bench.iter(|| match_features_guided(black_box(described[0]), described[1], &still, &matcher));
     });
+    let points_px: Vec<Vector2<f64>> = features[0].iter().take(1000).map(|f| f.pixel_px).collect();
+    let moved = |p: &Vector2<f64>| {
+        let q = p + Vector2::new(15.0, -4.0);
+        Some(Vector2::new(1.03 * q.x - 0.03 * q.y, 0.03 * q.x + 1.03 * q.y) / (1.03f64.powi(2) + 0.03f64.powi(2)))
+    };
+    criterion.bench_function("follow 1000 patches there and back", |bench| {
+        bench.iter(|| track_patches((black_box(&a), &b), &points_px, &moved, &KltConfig::default()));
+    });
     criterion.bench_function("rotation of a pair", |bench| {
         let matches = PixelMatches { pair: &pair, sigma_px: &sigma_px };
         bench

@@ -17,6 +17,8 @@ mod landmark;
 mod observability;
 #[cfg(feature = "render")]
 mod render;
+#[cfg(all(feature = "render", feature = "vision"))]
+mod rendered_sequences;
 mod report;
 mod scene;
 mod stats;

@@ -15,6 +15,14 @@ pub struct TrackedGround {
     pub first_in_site_m: Option<Vector3<f64>>,
     /// Surface point (m, site) under the last observation.
     pub last_in_site_m: Option<Vector3<f64>>,
+    /// Greatest distance in px of an observation from where the first point lies in the picture, over the pictures taken
+    /// from further away than [`TrackedGround::FAR_M`].
+    pub far_error_px: Option<f64>,
+}
+
+impl TrackedGround {
+    /// Slant range in m beyond which the point's pixel is judged.
+    pub const FAR_M: f64 = 3000.0;
 }
 
 /// One row of `tracks.csv`.
@@ -54,5 +62,17 @@ pub fn tracked_ground(tracks: &[TrackedPixel], camera: &TrueCamera) -> Result<Op
         let depth = camera.depth(seen.t_ns)?;
         Ok(depth.and_then(|depth| camera.surface_point(seen.t_ns, &seen.pixel_px, &depth)))
     };
-    Ok(Some(TrackedGround { last_t_ns: last.t_ns, first_in_site_m: under(first)?, last_in_site_m: under(last)? }))
+    let first_in_site_m = under(first)?;
+    let error_px = |seen: &TrackedPixel| {
+        let point = first_in_site_m.as_ref()?;
+        let camera_in_site_m = camera.reference_from_camera(seen.t_ns)?.translation.vector;
+        let far = (point - camera_in_site_m).norm() > TrackedGround::FAR_M;
+        Some((seen.pixel_px - camera.pixel_of(seen.t_ns, point)?).norm()).filter(|_| far)
+    };
+    Ok(Some(TrackedGround {
+        last_t_ns: last.t_ns,
+        first_in_site_m,
+        last_in_site_m: under(last)?,
+        far_error_px: designated().filter_map(error_px).reduce(f64::max),
+    }))
 }

@@ -193,7 +193,10 @@ fn add_final_errors(
         }
     };
     match ground {
-        Some(TrackedGround { last_in_site_m: Some(point), first_in_site_m, .. }) => {
+        Some(TrackedGround { last_in_site_m: Some(point), first_in_site_m, far_error_px, .. }) => {
+            if let Some(error_px) = far_error_px {
+                metrics.add("tracked_point_pixel_error_beyond_3km_max", error_px, "px");
+            }
             metrics.add("tracked_point_from_site_origin", point.norm(), "m");
             if let Some(first) = first_in_site_m {
                 metrics.add("tracked_point_drift", (point - first).norm(), "m");

@@ -22,6 +22,9 @@ const HALF_PX: u32 = 15;
 const MEMORY: usize = 8;
 /// The point ends this close to the edge, px.
 const MARGIN_PX: f64 = 4.0;
+/// 1σ in px by which the looks of the ground move over the ground as scale grows e-fold, in each coordinate: finer details
+/// appear, and all past pictures are wrong alike about where the point is among them (fitted to rendered ground).
+const LOOKS_SIGMA_PX: f64 = 0.2;
 /// Largest change of scale between the tied pictures: beyond it, patches and features no longer look alike.
 const MOST_SCALE: f64 = 1.35;
 
@@ -118,5 +121,7 @@ fn fused(carried: &[DesignatedStep]) -> Option<DesignatedStep> {
 
 fn grown(covariance_px2: &Matrix2<f64>, affine: &Affine, step_sigma_px: f64) -> Matrix2<f64> {
     let carried = affine.linear * covariance_px2 * affine.linear.transpose();
-    (carried + carried.transpose()) * 0.5 + Matrix2::identity() * step_sigma_px.powi(2)
+    let growth = 0.5 * affine.linear.determinant().abs().max(1e-12).ln();
+    let looks_px2 = LOOKS_SIGMA_PX.powi(2) * growth.abs();
+    (carried + carried.transpose()) * 0.5 + Matrix2::identity() * (step_sigma_px.powi(2) + looks_px2)
 }

@@ -87,11 +87,12 @@ fn coarse_to_fine(
     config: &KltConfig,
 ) -> Option<Refined> {
     let mut start_px = warp.apply(point_px);
+    let coarse = KltConfig { half_px: (config.half_px / 2).max(3), ..config.clone() };
     for level in (1..from.len()).rev() {
         let scale = f64::from(1u32 << level);
         let here = point_px / scale;
         let smaller = Affine::about(&here, &(start_px / scale), warp.linear);
-        if let Some(found) = refine_by_patch((&from[level], &to[level]), &here, &smaller, config) {
+        if let Some(found) = refine_by_patch((&from[level], &to[level]), &here, &smaller, &coarse) {
             start_px = found.pixel_px * scale;
         }
     }

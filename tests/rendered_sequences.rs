@@ -1,0 +1,100 @@
+//! The front end over rendered sequences, from pixels to rotations and to the designated point, against its bounds.
+
+use crate::bar::{Bar, check_table};
+use opnav::evaluation::Metrics;
+use opnav::pipeline::{
+    CameraSource, FrameTimes, FrontEndConfig, FrontEndMode, LandRequest, LandingConfig, Silent, SynthesizeRequest,
+    TrackRequest, evaluate_result, land, synthesize, track,
+};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// First frames of the parts of the reference descent that are judged: from 6.6 km, 4.5 km, 2.4 km, 0.8 km and 100 m.
+const DESCENT_FRAMES: [usize; 5] = [0, 30, 70, 125, 170];
+const FRAMES_A_PART: usize = 12;
+const BODIES: [&str; 4] = ["tumbling_paper", "itokawa", "bennu", "tumbling_near_spin"];
+const BODY_FRAMES: usize = 16;
+
+fn render(scenario: &str, frames: Option<Range<usize>>, folder: &Path) -> PathBuf {
+    let out = folder.join("images");
+    let request = SynthesizeRequest {
+        scenario: Path::new(env!("CARGO_MANIFEST_DIR")).join("datasets").join(scenario).with_extension("toml"),
+        out: out.clone(),
+        overrides: vec![],
+        frames,
+        resume: false,
+        adapter: None,
+    };
+    synthesize(&request, &Silent).expect("the scenario renders");
+    out
+}
+
+fn tracked(images: &Path, frames: Option<Range<usize>>, mode: FrontEndMode) -> Metrics {
+    let folder = TempDir::new().expect("a temporary folder");
+    let request = TrackRequest {
+        folder: images.into(),
+        out: folder.path().join("tracks"),
+        camera: CameraSource::Folder,
+        times: FrameTimes::default(),
+        every: 1,
+        frames,
+        config: FrontEndConfig { mode, ..FrontEndConfig::default() },
+    };
+    track(&request, &Silent).expect("the sequence is tracked");
+    evaluate_result(&request.out, images).expect("the result is evaluated")
+}
+
+fn figure(metrics: &Metrics, name: &str) -> f64 {
+    metrics.figure(name).unwrap_or(f64::NAN)
+}
+
+fn rotation_bars(what: &str, metrics: &Metrics) -> Vec<Bar> {
+    let bar = |name: &str| format!("{what}: {name}");
+    let nees = figure(metrics, "pair_nees_per_dof");
+    vec![
+        Bar::at_most(bar("rotation a pair, median"), figure(metrics, "pair_rotation_error_median"), 0.05, "deg"),
+        Bar::at_most(bar("rotation a pair, 95 %"), figure(metrics, "pair_rotation_error_p95"), 0.2, "deg"),
+        Bar::at_least(bar("NEES per degree of freedom"), nees, 0.7, ""),
+        Bar::at_most(bar("NEES per degree of freedom"), nees, 1.5, ""),
+        Bar::stated(bar("pairs"), figure(metrics, "pairs_ok"), ""),
+    ]
+}
+
+fn descent() -> Vec<Bar> {
+    let folder = TempDir::new().expect("a temporary folder");
+    let images = render("mars_descent", None, folder.path());
+    let mut bars = Vec::new();
+    for first in DESCENT_FRAMES {
+        let metrics = tracked(&images, Some(first..first + FRAMES_A_PART), FrontEndMode::Auto);
+        bars.extend(rotation_bars(&format!("reference descent from frame {first}"), &metrics));
+    }
+    let request = LandRequest {
+        folder: images.clone(),
+        out: folder.path().join("landing"),
+        config: LandingConfig::from_pixels(),
+        front_end: FrontEndConfig::default(),
+    };
+    land(&request, &Silent).expect("the descent is navigated");
+    let metrics = evaluate_result(&request.out, &images).expect("the result is evaluated");
+    let far_px = figure(&metrics, "tracked_point_pixel_error_beyond_3km_max");
+    bars.push(Bar::at_most("designated point beyond 3 km, worst", far_px, 0.5, "px"));
+    let drift_m = figure(&metrics, "tracked_point_drift");
+    bars.push(Bar::at_most("designated point, drift over the ground down to 15 m", drift_m, 2.0, "m"));
+    bars
+}
+
+fn body(scenario: &str) -> Vec<Bar> {
+    let folder = TempDir::new().expect("a temporary folder");
+    let images = render(scenario, Some(0..BODY_FRAMES), folder.path());
+    rotation_bars(scenario, &tracked(&images, None, FrontEndMode::FixedCenter))
+}
+
+#[test]
+#[ignore = "minutes long: run by `make accuracy`"]
+fn accuracy_of_rendered_sequences() {
+    check_table(
+        "rendered sequences",
+        std::iter::once_with(descent).chain(BODIES.iter().map(|scenario| body(scenario))),
+    );
+}
