@@ -67,6 +67,8 @@ mod descriptor;
 #[cfg(feature = "vision")]
 mod designated;
 #[cfg(feature = "vision")]
+mod designated_keyframes;
+#[cfg(feature = "vision")]
 mod error;
 #[cfg(feature = "vision")]
 mod evenly;
