@@ -42,8 +42,9 @@ fn pcg3d(at: vec3<u32>) -> vec3<u32> {
     return v;
 }
 
+// Both halves, each mapped to [-1, 1]; by way of signed integers, which a software adapter converts faster.
 fn halves(h: u32) -> vec2<f32> {
-    return vec2(f32(h & 0xffffu), f32(h >> 16u)) / 32767.5 - 1.0;
+    return vec2(f32(i32(h & 0xffffu)), f32(i32(h >> 16u))) * (1.0 / 32767.5) - 1.0;
 }
 
 fn fade(t: vec3<f32>) -> vec3<f32> {
@@ -54,25 +55,35 @@ fn fade_slope(t: vec3<f32>) -> vec3<f32> {
     return 30.0 * t * t * (t - 1.0) * (t - 1.0);
 }
 
+// Between the values at the corners (0, 0), (1, 0), (0, 1) and (1, 1) of a cell.
+fn between(corners: vec4<f32>, weight: vec2<f32>) -> f32 {
+    let rows = corners.xz + weight.x * (corners.yw - corners.xz);
+    return rows.x + weight.y * (rows.y - rows.x);
+}
+
 fn noise_2d(cell: vec2<i32>, f: vec2<f32>, seed: u32) -> NoiseSample {
-    let high = fade(vec3(f, 0.0)).xy;
+    let low = vec2<u32>(cell);
+    let hashes = array(
+        pcg2d(vec2(low.x ^ seed, low.y)),
+        pcg2d(vec2((low.x + 1u) ^ seed, low.y)),
+        pcg2d(vec2(low.x ^ seed, low.y + 1u)),
+        pcg2d(vec2((low.x + 1u) ^ seed, low.y + 1u)),
+    );
+    let from_x = vec4(f.x, f.x - 1.0, f.x, f.x - 1.0);
+    let from_y = vec4(f.y, f.y, f.y - 1.0, f.y - 1.0);
+    let g = array(halves(hashes[0].x), halves(hashes[1].x), halves(hashes[2].x), halves(hashes[3].x));
+    let gradient_x = vec4(g[0].x, g[1].x, g[2].x, g[3].x);
+    let gradient_y = vec4(g[0].y, g[1].y, g[2].y, g[3].y);
+    let a = array(halves(hashes[0].y), halves(hashes[1].y), halves(hashes[2].y), halves(hashes[3].y));
+    let albedo = vec4(a[0].x, a[1].x, a[2].x, a[3].x) * from_x + vec4(a[0].y, a[1].y, a[2].y, a[3].y) * from_y;
+    let values = gradient_x * from_x + gradient_y * from_y;
+    let weight = fade(vec3(f, 0.0)).xy;
     let slope = fade_slope(vec3(f, 0.0)).xy;
-    var total = NoiseSample(0.0, 0.0, vec3(0.0));
-    for (var corner = 0u; corner < 4u; corner++) {
-        let upper = vec2(corner & 1u, corner >> 1u);
-        let is_upper = upper == vec2(1u);
-        let at = vec2<u32>(cell) + upper;
-        let hash = pcg2d(vec2(at.x ^ seed, at.y));
-        let from_corner = f - vec2<f32>(upper);
-        let weight = select(1.0 - high, high, is_upper);
-        let side = select(-slope, slope, is_upper);
-        let gradient = halves(hash.x);
-        let value = dot(gradient, from_corner);
-        total.relief += value * weight.x * weight.y;
-        total.relief_gradient += vec3(weight.yx * (gradient * weight + value * side), 0.0);
-        total.albedo += dot(halves(hash.y), from_corner) * weight.x * weight.y;
-    }
-    return total;
+    let along_x = values.yw - values.xz;
+    let along_y = values.zw - values.xy;
+    let by_weight = vec2(along_x.x + weight.y * (along_x.y - along_x.x), along_y.x + weight.x * (along_y.y - along_y.x));
+    let relief_gradient = vec2(between(gradient_x, weight), between(gradient_y, weight)) + slope * by_weight;
+    return NoiseSample(between(values, weight), between(albedo, weight), vec3(relief_gradient, 0.0));
 }
 
 fn noise_3d(cell: vec3<i32>, f: vec3<f32>, seed: u32) -> NoiseSample {

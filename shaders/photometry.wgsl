@@ -15,6 +15,7 @@ override MODEL: u32 = LUNAR_LAMBERT;
 const LUNAR_LAMBERT: u32 = 0u;
 const OREN_NAYAR: u32 = 1u;
 const HAPKE: u32 = 2u;
+const LUNAR_LAMBERT_BY_PHASE: u32 = 3u; // the weight is no constant
 const LEAST_COSINE: f32 = 1e-4; // keeps every quotient finite
 const LEAST_ROUGHNESS: f32 = 1e-3;
 
@@ -55,9 +56,6 @@ fn slopes(cosine: f32, tangent: f32) -> vec4<f32> {
 fn effective_cosines(material: Photometry, cos_i: f32, cos_e: f32, half_tangent: f32) -> vec3<f32> {
     let chi = material.rough.z;
     let tangent = material.rough.w;
-    if tangent < LEAST_ROUGHNESS {
-        return vec3(cos_i, cos_e, 1.0);
-    }
     let cos_near = max(cos_i, cos_e);
     let cos_far = min(cos_i, cos_e);
     let near = slopes(cos_near, tangent);
@@ -69,7 +67,7 @@ fn effective_cosines(material: Photometry, cos_i: f32, cos_e: f32, half_tangent:
     let shared_part = exp(-2.0 * half_tangent);
     let cosines = max(select(vec2(far_e, near_e), vec2(near_e, far_e), cos_i >= cos_e), vec2(LEAST_COSINE));
     let shadowing = cosines.y * cos_i / (chi * near.w * far.w) / (1.0 - shared_part + shared_part * cos_near / near.w);
-    return vec3(cosines, shadowing);
+    return select(vec3(cosines, shadowing), vec3(cos_i, cos_e, 1.0), tangent < LEAST_ROUGHNESS);
 }
 
 fn hapke(material: Photometry, albedo: f32, effective: vec3<f32>, to_sun: vec3<f32>, to_camera: vec3<f32>) -> f32 {
@@ -109,7 +107,7 @@ fn reflectance(
         return albedo * cos_i * (material.rough.x + material.rough.y * lobe);
     }
     var weight = material.lunar.x;
-    if any(material.lunar.yzw != vec3(0.0)) {
+    if MODEL == LUNAR_LAMBERT_BY_PHASE {
         let phase = 2.0 * atan(half_angle_tangent(to_sun, to_camera));
         weight = clamp(dot(material.lunar, vec4(1.0, phase, phase * phase, phase * phase * phase)), 0.0, 1.0);
     }

@@ -1,8 +1,9 @@
 // From surface samples to radiance, depth and mask: photometry, cast shadows, and detail below the mesh's resolution.
 // One module with shaders/noise.wgsl, photometry.wgsl, lens.wgsl and shadow.wgsl.
 //
-// A software adapter runs both sides of a branch and every loop at least once, for all pixels: what a pipeline does not need
-// is left out by an override, and what happens for one or two layers stands in one loop.
+// A software adapter runs both sides of a branch for all pixels, and every loop once more than its condition at the top holds:
+// what a pipeline does not need is left out by an override, loops have their condition at the end, and what happens for one
+// or two layers stands in one loop.
 
 struct Shading {
     reference_from_camera: mat4x4<f32>, // rotation
@@ -10,10 +11,9 @@ struct Shading {
     sun: vec4<f32>,       // direction in reference axes; w = radiance of the sky over that of a sunlit white surface
     focal: vec4<f32>,     // focal lengths of the camera in px
     raster: vec4<f32>,    // focal lengths and principal point of the pinhole picture in samples
-    surface: vec4<f32>,   // mean albedo, r.m.s. slope of the detail
+    surface: vec4<f32>,   // mean albedo, r.m.s. slope of the detail, z of the highest ground from the camera m
     shadow: vec4<f32>,    // texel's width and height in m, depth of the map in m, tangent of the Sun's radius
     level: vec4<f32>,     // terrain: height above ground m, range over spacing, morph start, morph end
-    counts: vec4<u32>,    // taps, stride, octaves
     photometry: Photometry,
     octaves: array<Octave, OCTAVES>,
 }
@@ -21,6 +21,10 @@ struct Shading {
 @group(0) @binding(0) var<uniform> shading: Shading;
 @group(0) @binding(1) var samples: texture_2d<f32>;
 
+// Samples a pixel and axis.
+override STRIDE: u32 = 1u;
+// Samples along each side of a pixel's square: odd, so that the middle one is the pixel's centre.
+override TAPS: u32 = 1u;
 // Whether the surface is terrain: samples are gradients and albedos; or a body: samples are normals.
 override TERRAIN: bool = false;
 
@@ -44,6 +48,7 @@ const TERMINATOR_COSINE: f32 = 0.17364818; // incidence of 80 to 100 degrees
 const FARTHEST: f32 = 3.0e38; // m
 const FINEST_SPACING_LOG2: f32 = -8.0;
 const SHADE_SPACINGS: f32 = 8.0; // as in src/render/terrain_tile.rs
+const CARRIED_SPACINGS: f32 = 16.0; // vertices carry octaves from here on, slid or not
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
@@ -79,22 +84,32 @@ fn carried_by(mesh: Mesh, wavelength_m: f32) -> f32 {
     return fine * (1.0 - mesh.morph) + coarse * mesh.morph;
 }
 
+// The first octave with a wavelength below one in m: wavelengths halve from octave to octave.
+fn first_below(wavelength_m: f32) -> u32 {
+    let halvings = log2(shading.octaves[0].row_x.w / wavelength_m);
+    return u32(clamp(floor(halvings - 1e-3) + 1.0, 0.0, f32(OCTAVES - 1u)));
+}
+
+// Whether no octave from one on shows in a picture. Those behind the last one have no wavelength.
+fn shows_none_from(octave: u32, footprint: f32) -> bool {
+    return octave >= OCTAVES || shading.octaves[min(octave, OCTAVES - 1u)].row_x.w <= footprint;
+}
+
 fn terrain_surface(sample: vec4<f32>, relative: vec3<f32>) -> Surface {
     let footprint = footprint_m(relative, sample.w, vec3(0.0, 0.0, 1.0));
     let mesh = mesh_at(relative);
     var gradient = sample.xy;
     var albedo = sample.z;
-    for (var k = 0u; k < shading.counts.z; k++) {
+    var k = first_below(CARRIED_SPACINGS * mesh.spacing);
+    loop {
         let octave = shading.octaves[k];
-        let seen = visibility(octave.row_x.w, footprint);
-        if seen <= 0.0 {
+        let weight = visibility(octave.row_x.w, footprint) * (1.0 - carried_by(mesh, octave.row_x.w));
+        let noise = octave_planar(octave, relative);
+        gradient += weight * octave.row_y.w * noise.relief_gradient.xy;
+        albedo += weight * octave.row_z.w * noise.albedo;
+        k++;
+        if shows_none_from(k, footprint) {
             break;
-        }
-        let weight = seen * (1.0 - carried_by(mesh, octave.row_x.w));
-        if weight > 0.0 {
-            let noise = octave_planar(octave, relative);
-            gradient += weight * octave.row_y.w * noise.relief_gradient.xy;
-            albedo += weight * octave.row_z.w * noise.albedo;
         }
     }
     let clamped = clamp(shading.surface.x * (1.0 + albedo), 0.02, 0.95);
@@ -106,15 +121,17 @@ fn body_surface(sample: vec4<f32>, relative: vec3<f32>, painted: f32) -> Surface
     let footprint = footprint_m(relative, sample.w, smooth_normal);
     var gradient = vec3(0.0);
     var albedo = 0.0;
-    for (var k = 0u; k < shading.counts.z; k++) {
+    var k = 0u;
+    loop {
         let octave = shading.octaves[k];
-        let seen = visibility(octave.row_x.w, footprint);
-        if seen <= 0.0 {
+        let weight = visibility(octave.row_x.w, footprint);
+        let noise = octave_solid(octave, relative);
+        gradient += weight * octave.row_y.w * noise.relief_gradient;
+        albedo += weight * octave.row_z.w * noise.albedo;
+        k++;
+        if shows_none_from(k, footprint) {
             break;
         }
-        let noise = octave_solid(octave, relative);
-        gradient += seen * octave.row_y.w * noise.relief_gradient;
-        albedo += seen * octave.row_z.w * noise.albedo;
     }
     let tangent = gradient - smooth_normal * dot(smooth_normal, gradient);
     let clamped = clamp(shading.surface.x * painted * (1.0 + albedo), 0.0, 0.95);
@@ -163,17 +180,15 @@ struct Layer {
 // Where samples lie on the pixel's border, borders count half in the share (the trapezoidal rule). For the means they count
 // 1/2 - 1/(2 stride), so that the means are also those of quadratic functions (Simpson's rule at a stride of 2).
 fn layer_of(pixel: vec2<u32>, near: f32, far: f32) -> Layer {
-    let taps = shading.counts.x;
-    let stride = shading.counts.y;
-    let border = 0.5 - 0.5 / f32(stride);
+    let border = 0.5 - 0.5 / f32(STRIDE);
     var layer = Layer(0.0, 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), FARTHEST, 0.0);
     var off_center = FARTHEST;
-    for (var k = 0u; k < taps * taps; k++) {
-        let tap = vec2(k % taps, k / taps);
-        let seen = seen_between(pixel * stride + tap, near, far);
+    for (var k = 0u; k < TAPS * TAPS; k++) {
+        let tap = vec2(k % TAPS, k / TAPS);
+        let seen = seen_between(pixel * STRIDE + tap, near, far);
         if seen.share > 0.0 {
-            let outer = (tap == vec2(0u)) | (tap == vec2(taps - 1u));
-            let on_border = outer & vec2(taps != stride);
+            let outer = (tap == vec2(0u)) | (tap == vec2(TAPS - 1u));
+            let on_border = outer & vec2(TAPS != STRIDE);
             let halves = select(vec2(1.0), vec2(0.5), on_border);
             let parts = select(vec2(1.0), vec2(border), on_border);
             let weight = parts.x * parts.y * seen.share;
@@ -184,7 +199,7 @@ fn layer_of(pixel: vec2<u32>, near: f32, far: f32) -> Layer {
             layer.numbers += weight / painted * seen.numbers;
             layer.painted += weight * painted;
             layer.in_camera += weight * seen.in_camera;
-            let off = vec2<f32>(tap) - 0.5 * f32(taps - 1u);
+            let off = vec2<f32>(tap) - 0.5 * f32(TAPS - 1u);
             if dot(off, off) < off_center {
                 off_center = dot(off, off);
                 layer.drawn = seen.in_camera;
@@ -197,7 +212,7 @@ fn layer_of(pixel: vec2<u32>, near: f32, far: f32) -> Layer {
     layer.numbers *= inverse;
     layer.painted *= inverse;
     layer.in_camera *= inverse;
-    layer.share /= f32(stride * stride);
+    layer.share /= f32(STRIDE * STRIDE);
     return layer;
 }
 
@@ -228,30 +243,36 @@ struct Shaded {
 
 fn shade(target_position: vec4<f32>) -> Shaded {
     let pixel = vec2<u32>(target_position.xy);
-    let center_at = pixel * shading.counts.y + shading.counts.x / 2u;
+    let center_at = pixel * STRIDE + TAPS / 2u;
     let center = seen_at_center(center_at);
     var out: Shaded;
     out.outputs.depth = select(0.0, center.in_camera.z, center.share > 0.0);
     let all = layer_of(pixel, 0.0, FARTHEST);
-    let torn = is_torn(all);
+    let torn = TAPS > 1u && is_torn(all);
     let middle = select(FARTHEST, 0.5 * (all.nearest + all.farthest), torn);
-    let layers = select(0u, select(1u, 2u, torn), all.share > 0.0);
     var light = 0.0;
-    for (var k = 0u; k < layers; k++) {
+    var k = 0u;
+    loop {
         var layer = all;
         if torn {
             layer = layer_of(pixel, select(middle, 0.0, k == 0u), select(FARTHEST, middle, k == 0u));
         }
-        let surface = surface_of(layer);
-        var plane = surface.smooth_normal;
-        if !torn {
-            plane = drawn_normal(center_at, plane);
+        if layer.share > 0.0 {
+            let surface = surface_of(layer);
+            var plane = surface.smooth_normal;
+            if !torn {
+                plane = drawn_normal(center_at, plane);
+            }
+            let seen = sunlight(relative_place(layer.drawn), plane);
+            out.outputs.radiance += layer.share * radiance(surface, seen);
+            if (k == 0u) == (out.outputs.depth <= middle) {
+                light = seen;
+                out.center = surface;
+            }
         }
-        let seen = sunlight(relative_place(layer.drawn), plane);
-        out.outputs.radiance += layer.share * radiance(surface, seen);
-        if (k == 0u) == (out.outputs.depth <= middle) {
-            light = seen;
-            out.center = surface;
+        k++;
+        if !torn || k == 2u {
+            break;
         }
     }
     if out.outputs.depth > 0.0 {

@@ -5,6 +5,10 @@
 
 const BLOCKER_TAPS: u32 = 10u;
 const DISC_TAPS: u32 = 16u;
+// Half shadow up to this radius is left to the map's own blur, texels.
+override NARROW: f32 = 1.0;
+// Whether half shadow may be wider anywhere in the picture.
+override WIDE_PENUMBRA: bool = true;
 
 // The normal of the drawn mesh around a pixel's centre, from the samples beside it; the smooth one where they do not lie
 // on one slope.
@@ -42,21 +46,26 @@ fn sunlight(place: vec3<f32>, plane: vec3<f32>) -> f32 {
     let size = vec2<f32>(textureDimensions(shadow_map));
     let receiver = Receiver(at.xy * size, at.z, -across.xy / across.z / size);
     let reach = shading.shadow.w * shading.shadow.z / shading.shadow.xy; // of the solar disc, texels per depth
-    let is_soft = max(reach.x, reach.y) * at.z > 0.5;
-    var taps = 4u;
-    var radius = vec2(0.0);
-    if is_soft {
-        radius = image_of_disc(receiver, reach);
-        taps = select(0u, DISC_TAPS, radius.x > 0.0);
+    let widest = reach * farthest_gap(place, at.z);
+    var light = lit_around(receiver);
+    if WIDE_PENUMBRA && max(widest.x, widest.y) > NARROW {
+        let radius = image_of_disc(receiver, reach, widest);
+        if radius.x > 0.0 {
+            light = lit_on_disc(receiver, radius);
+        } else {
+            light = 1.0;
+        }
     }
-    var light = 0.0;
-    var direction = vec2(1.0, 0.0);
-    for (var tap = 0u; tap < taps; tap++) {
-        direction = next_on_disc(direction);
-        let on_disc = radius * direction * sqrt((f32(tap) + 0.5) / f32(DISC_TAPS));
-        light += lit_share(receiver, select(vec2(f32(tap & 1u), f32(tap >> 1u)) - 0.5, on_disc, is_soft));
+    return light;
+}
+
+// How far from a place, in depths of the map, what blocks its light may lie: no ground is higher than the highest drawn.
+fn farthest_gap(place: vec3<f32>, depth: f32) -> f32 {
+    if !TERRAIN {
+        return depth;
     }
-    return select(light / f32(taps), 1.0, taps == 0u);
+    let above_m = max(shading.surface.z - place.z, 0.0);
+    return min(depth, above_m / (max(shading.sun.z, 1e-3) * shading.shadow.z));
 }
 
 // A plane in the shadow map that light may fall on.
@@ -75,21 +84,69 @@ fn next_on_disc(last: vec2<f32>) -> vec2<f32> {
 
 // Radii in texels of the solar disc's image from what blocks it, which is taken to lie at the mean depth of the blockers
 // around (Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH sketches 2005); 0 if nothing blocks it.
-fn image_of_disc(receiver: Receiver, reach: vec2<f32>) -> vec2<f32> {
-    let widest = max(reach * receiver.depth, vec2(1.0));
+fn image_of_disc(receiver: Receiver, reach: vec2<f32>, widest: vec2<f32>) -> vec2<f32> {
+    let around = max(widest, vec2(1.0));
     var blockers = 0.0;
     var gap = 0.0;
     var direction = vec2(1.0, 0.0);
-    for (var tap = 0u; tap < BLOCKER_TAPS; tap++) {
+    var tap = 0u;
+    loop {
         direction = next_on_disc(direction);
-        let far = widest * direction * sqrt((f32(tap) + 0.5) / f32(BLOCKER_TAPS));
-        let shift = floor(receiver.at + far) + 0.5 - receiver.at;
-        let blocker = textureLoad(shadow_map, vec2<i32>(receiver.at + shift), 0);
-        let behind = receiver.depth + dot(receiver.slope, shift) - blocker;
+        let far = around * direction * sqrt((f32(tap) + 0.5) / f32(BLOCKER_TAPS));
+        let texel = floor(receiver.at + far);
+        let behind = depth_behind(receiver, vec2<i32>(texel));
         blockers += step(0.0, behind);
         gap += max(behind, 0.0);
+        tap++;
+        if tap == BLOCKER_TAPS {
+            break;
+        }
     }
     return select(vec2(0.0), max(reach * gap / max(blockers, 1.0), vec2(0.75)), blockers > 0.0);
+}
+
+// How far a texel's surface lies before the plane, in depths of the map; negative if behind it.
+fn depth_behind(receiver: Receiver, texel: vec2<i32>) -> f32 {
+    let plane = receiver.depth + dot(receiver.slope, vec2<f32>(texel) + 0.5 - receiver.at);
+    return plane - textureLoad(shadow_map, texel, 0);
+}
+
+// Share of the light that passes the three by three texels around a place, those beside by how near they are: two texels
+// wide, blurred by one.
+fn lit_around(receiver: Receiver) -> f32 {
+    let size = vec2<i32>(textureDimensions(shadow_map));
+    let low = floor(receiver.at);
+    let middle = clamp(vec2<i32>(low), vec2(1), size - 2);
+    let part = receiver.at - low;
+    let weight_x = vec3(0.5 - 0.5 * part.x, 0.5, 0.5 * part.x);
+    let weight_y = vec3(0.5 - 0.5 * part.y, 0.5, 0.5 * part.y);
+    var light = 0.0;
+    for (var row = 0; row < 3; row++) {
+        let first = middle + vec2(-1, row - 1);
+        let behind = vec3(
+            depth_behind(receiver, first),
+            depth_behind(receiver, first + vec2(1, 0)),
+            depth_behind(receiver, first + vec2(2, 0)),
+        );
+        light += weight_y[row] * dot(weight_x, select(vec3(0.0), vec3(1.0), behind <= vec3(0.0)));
+    }
+    return light;
+}
+
+// Share of the light that passes the map within an ellipse of the given radii in texels.
+fn lit_on_disc(receiver: Receiver, radius: vec2<f32>) -> f32 {
+    var light = 0.0;
+    var direction = vec2(1.0, 0.0);
+    var tap = 0u;
+    loop {
+        direction = next_on_disc(direction);
+        light += lit_share(receiver, radius * direction * sqrt((f32(tap) + 0.5) / f32(DISC_TAPS)));
+        tap++;
+        if tap == DISC_TAPS {
+            break;
+        }
+    }
+    return light / f32(DISC_TAPS);
 }
 
 // Share of the four texels around a place `shift` texels away that let light through to the plane.

@@ -61,7 +61,6 @@ pub(super) struct Shading {
     pub surface: [f32; 4],
     pub shadow: [f32; 4],
     pub level: [f32; 4],
-    pub counts: [u32; 4],
     pub photometry: Photometry,
     pub octaves: [Octave; OCTAVES],
 }
@@ -152,7 +151,6 @@ mod tests {
                 surface,
                 shadow,
                 level,
-                counts,
                 photometry,
                 octaves
             ]

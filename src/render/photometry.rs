@@ -7,10 +7,12 @@ use bytemuck::Zeroable;
 const LUNAR_LAMBERT: u32 = 0;
 const OREN_NAYAR: u32 = 1;
 const HAPKE: u32 = 2;
+const LUNAR_LAMBERT_BY_PHASE: u32 = 3;
 
 /// The law that a material follows: `MODEL` of the shader.
 pub(super) fn photometry_model(photometry: &Photometry) -> u32 {
     match photometry {
+        Photometry::LunarLambert { weight: LunarWeight::Phase(_) } => LUNAR_LAMBERT_BY_PHASE,
         Photometry::Lambert | Photometry::LommelSeeliger | Photometry::LunarLambert { .. } => LUNAR_LAMBERT,
         Photometry::OrenNayar { .. } => OREN_NAYAR,
         Photometry::Hapke(_) => HAPKE,

@@ -91,8 +91,7 @@ impl Renderer {
             return Err(RenderError::ViewNotFinite { t_ns: view.t_ns });
         }
         let inputs = (&self.lens, &self.shadow_map);
-        let numbers = self.surface.prepare(&self.gpu, view, (&self.camera, &self.config), inputs)?;
-        Ok(ShadingJob { numbers, rectangle_px: self.surface.rectangle_px(view, &self.lens) })
+        self.surface.prepare(&self.gpu, view, (&self.camera, &self.config), inputs)
     }
 
     fn record(&self, stage: Stage, job: &ShadingJob, encoder: &mut wgpu::CommandEncoder) {

@@ -18,6 +18,9 @@ pub(super) const SOURCE: &str = concat!(
     include_str!("../../shaders/shading.wgsl")
 );
 
+/// Half shadow up to this radius is left to the shadow map's own blur.
+const NARROW_TEXELS: f64 = 1.0;
+
 /// Formats of radiance, depth and mask, and on request of normal and albedo, with their bytes a pixel.
 const FORMATS: [(wgpu::TextureFormat, u32); 4] = [(R32Float, 4), (R32Float, 4), (R8Uint, 1), (Rgba32Float, 16)];
 
@@ -42,13 +45,16 @@ impl ShadingKind {
 #[derive(Debug)]
 pub(super) struct ShadingJob {
     pub numbers: Shading,
+    /// Largest radius of the solar disc's image in the shadow map.
+    pub widest_penumbra_texels: f64,
     /// [left, top, width, height] in px; nothing is hit outside.
     pub rectangle_px: [u32; 4],
 }
 
 #[derive(Debug)]
 pub(super) struct ShadingPass {
-    pipeline: wgpu::RenderPipeline,
+    /// For shadows whose half shadow is nowhere wider than the map's own blur, and for any.
+    pipelines: [wgpu::RenderPipeline; 2],
     uniform: wgpu::Buffer,
     group: wgpu::BindGroup,
     outputs: Vec<(wgpu::Texture, ReadBack)>,
@@ -81,7 +87,8 @@ impl ShadingPass {
             (target, ReadBack::new(gpu, size_px.0, size_px.1, bytes))
         };
         let outputs = kind.formats().iter().map(output).collect();
-        ShadingPass { pipeline: pipeline(gpu, &layout, kind, lens.is_distorting()), uniform, group, outputs, size_px }
+        let pipelines = [false, true].map(|wide_penumbra| pipeline(gpu, &layout, kind, (lens, wide_penumbra)));
+        ShadingPass { pipelines, uniform, group, outputs, size_px }
     }
 
     pub(super) fn record(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, job: &ShadingJob) {
@@ -95,7 +102,8 @@ impl ShadingPass {
                 color_attachments: &attachments,
                 ..wgpu::RenderPassDescriptor::default()
             });
-            pass.set_pipeline(&self.pipeline);
+            let is_wide = job.widest_penumbra_texels > NARROW_TEXELS;
+            pass.set_pipeline(&self.pipelines[usize::from(is_wide)]);
             pass.set_bind_group(0, &self.group, &[]);
             let [left, top, width, height] = job.rectangle_px;
             if width > 0 && height > 0 {
@@ -146,7 +154,12 @@ fn group_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     })
 }
 
-fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, kind: &ShadingKind, distorting: bool) -> wgpu::RenderPipeline {
+fn pipeline(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    kind: &ShadingKind,
+    (lens, wide_penumbra): (&Lens, bool),
+) -> wgpu::RenderPipeline {
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("shading"),
         source: wgpu::ShaderSource::Wgsl(SOURCE.into()),
@@ -159,7 +172,11 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, kind: &ShadingKind, disto
     let targets: Vec<_> = kind.formats().iter().map(|(f, _)| Some(wgpu::ColorTargetState::from(*f))).collect();
     let entry = if kind.surface_truth { "picture_with_surface" } else { "picture" };
     let constants = [
-        ("LENS", f64::from(u8::from(distorting))),
+        ("LENS", f64::from(u8::from(lens.is_distorting()))),
+        ("STRIDE", f64::from(lens.grid.stride)),
+        ("TAPS", f64::from(lens.grid.taps())),
+        ("NARROW", NARROW_TEXELS),
+        ("WIDE_PENUMBRA", f64::from(u8::from(wide_penumbra))),
         ("TERRAIN", f64::from(u8::from(kind.is_terrain))),
         ("MODEL", f64::from(kind.photometry_model)),
     ];

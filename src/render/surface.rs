@@ -6,7 +6,7 @@ use super::gpu_data::{Geometry, Shading, columns, dropped, four};
 use super::lens::Lens;
 use super::noise::octave_table;
 use super::photometry::{photometry_data, photometry_model};
-use super::shading::ShadingKind;
+use super::shading::{ShadingJob, ShadingKind};
 use super::shadow::{ShadowBox, ShadowMap, shadow_axes, texture_from_clip};
 use super::terrain_geometry::TerrainGeometry;
 use super::terrain_levels::LevelRange;
@@ -72,14 +72,14 @@ impl Surface {
         ShadingKind { is_terrain, photometry_model: photometry_model(&self.photometry), surface_truth }
     }
 
-    /// Checks the view, uploads its geometry, and returns what shading needs.
+    /// Checks the view, uploads its geometry, and returns what there is to shade.
     pub(super) fn prepare(
         &mut self,
         gpu: &Gpu,
         view: &View,
         (camera, config): (&Camera, &RenderConfig),
         (lens, shadow_map): (&Lens, &ShadowMap),
-    ) -> Result<Shading, RenderError> {
+    ) -> Result<ShadingJob, RenderError> {
         let placement = match &mut self.kind {
             Kind::Body(body) => place_body(body, view)?,
             Kind::Terrain(terrain) => place_terrain(terrain, gpu, view, (lens, config))?,
@@ -93,25 +93,27 @@ impl Surface {
         let finest_m = 0.5 * placement.nearest_m.max(0.0) / camera.mean_focal_px();
         let eye_m = view.reference_from_camera.translation.vector;
         let carried = self.octaves.partition_point(|octave| octave.wavelength_m >= placement.carried_m);
-        let (octaves, count) = octave_table(&self.octaves[carried..], &eye_m, finest_m);
+        let octaves = octave_table(&self.octaves[carried..], &eye_m, finest_m);
         let texel_m = shadow_map.texel_m(&placement.covered);
-        Ok(Shading {
+        let sun_tangent = view.sun_angular_radius_rad.tan();
+        let numbers = Shading {
             reference_from_camera: columns(&rotation),
             shadow_from_relative: columns(&(texture_from_clip() * shadow_clip)),
             sun: four(&view.sun_in_reference, self.sky_light),
             focal: [camera.focal_px.x, camera.focal_px.y, 0.0, 0.0].map(|v| v as f32),
             raster: lens.raster_intrinsics().map(|v| v as f32).into(),
-            surface: [self.mean_albedo, self.detail_slope, 0.0, 0.0].map(|v| v as f32),
-            shadow: four(&texel_m, view.sun_angular_radius_rad.tan()),
+            surface: [self.mean_albedo, self.detail_slope, placement.highest_m - eye_m.z, 0.0].map(|v| v as f32),
+            shadow: four(&texel_m, sun_tangent),
             level: placement.level(),
-            counts: [lens.grid.taps(), lens.grid.stride, count, 0],
             photometry: photometry_data(&self.photometry),
             octaves,
-        })
+        };
+        let widest_penumbra_texels = sun_tangent * placement.farthest_shadow_m / texel_m.xy().min();
+        Ok(ShadingJob { numbers, widest_penumbra_texels, rectangle_px: self.rectangle_px(view, lens) })
     }
 
     /// The rectangle [left, top, width, height] in px outside of which there is no surface.
-    pub(super) fn rectangle_px(&self, view: &View, lens: &Lens) -> [u32; 4] {
+    fn rectangle_px(&self, view: &View, lens: &Lens) -> [u32; 4] {
         match &self.kind {
             Kind::Terrain(_) => [0, 0, lens.grid.size_px.0, lens.grid.size_px.1],
             Kind::Body(body) => lens.rectangle_px(view, &body.box_corners_m()),
@@ -145,6 +147,10 @@ struct Placement {
     nearest_m: f64,
     /// Octaves of this wavelength in m and more are left to the vertices.
     carried_m: f64,
+    /// Height of the highest terrain in the shadow map, in m.
+    highest_m: f64,
+    /// No surface throws a shadow farther, in m along the light.
+    farthest_shadow_m: f64,
 }
 
 impl Placement {
@@ -177,6 +183,8 @@ fn place_body(body: &BodyGeometry, view: &View) -> Result<Placement, RenderError
         anchor_m: Vector3::zeros(),
         nearest_m: center_m.norm() - radius_m,
         carried_m: f64::INFINITY,
+        highest_m: 0.0,
+        farthest_shadow_m: 2.0 * covered.half_m.z,
     })
 }
 
@@ -189,9 +197,18 @@ fn place_terrain(
     let height_m = terrain.check_view(view)?;
     let levels = LevelRange::new(height_m, lens.finest_focal_px, config.vertex_spacing_px);
     let ground = SeenGround::new(terrain.terrain(), (&lens.raster, view), height_m);
-    let carried_m = terrain.prepare(gpu, &ground.volume(&lens.raster, view), &levels)?;
+    let tiles = terrain.prepare(gpu, &ground.volume(&lens.raster, view), &levels)?;
     let anchor_m = TerrainGeometry::anchor_m(&view.reference_from_camera.translation.vector).push(0.0);
-    Ok(Placement { covered: ground.covered, levels: Some(levels), anchor_m, nearest_m: height_m, carried_m })
+    let [lowest_m, highest_m] = tiles.height_range_m;
+    Ok(Placement {
+        covered: ground.covered,
+        levels: Some(levels),
+        anchor_m,
+        nearest_m: height_m,
+        carried_m: tiles.carried_m,
+        highest_m,
+        farthest_shadow_m: (highest_m - lowest_m) / view.sun_in_reference.z,
+    })
 }
 
 /// Octaves of a small body's detail.

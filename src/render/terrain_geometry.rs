@@ -13,6 +13,15 @@ use wgpu::util::DeviceExt;
 /// Least height above the ground in m.
 const LEAST_CLEARANCE_M: f64 = 0.02;
 
+/// What is known of the tiles of a view.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct DrawnTiles {
+    /// From this wavelength in m on, vertices carry all that the picture shows of the octaves.
+    pub carried_m: f64,
+    /// Heights in m of the lowest and the highest vertex.
+    pub height_range_m: [f64; 2],
+}
+
 #[derive(Debug)]
 pub(super) struct TerrainGeometry {
     terrain: Terrain,
@@ -72,9 +81,13 @@ impl TerrainGeometry {
         camera_in_site_m.xy().map(f64::round)
     }
 
-    /// Brings the tiles of a view onto the adapter. From the wavelength in m that is returned on, vertices carry all
-    /// that the picture shows of the octaves.
-    pub(super) fn prepare(&mut self, gpu: &Gpu, volume: &ViewVolume, levels: &LevelRange) -> Result<f64, RenderError> {
+    /// Brings the tiles of a view onto the adapter.
+    pub(super) fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        volume: &ViewVolume,
+        levels: &LevelRange,
+    ) -> Result<DrawnTiles, RenderError> {
         let keys = choose_tiles(&self.terrain, volume, levels);
         let capacity = self.pool.capacity();
         let slots = self.pool.place(gpu, &self.terrain, &keys)?;
@@ -87,7 +100,10 @@ impl TerrainGeometry {
         let tiles: Vec<Tile> = keys.iter().zip(slots).map(|(key, slot)| tile(key, slot, &anchor_m)).collect();
         gpu.queue.write_buffer(&self.tiles, 0, bytemuck::cast_slice(&tiles));
         self.tile_count = tiles.len() as u32;
-        Ok(keys.iter().map(TileKey::carried_m).fold(0.0, f64::max))
+        Ok(DrawnTiles {
+            carried_m: keys.iter().map(TileKey::carried_m).fold(0.0, f64::max),
+            height_range_m: self.pool.height_range_m(&keys),
+        })
     }
 
     pub(super) fn set_geometry(&self, gpu: &Gpu, role: Role, geometry: &Geometry) {

@@ -15,6 +15,8 @@ const FIRST_CAPACITY: usize = 1024;
 struct Slot {
     index: u32,
     last_used: u64,
+    /// Heights of the lowest and the highest vertex.
+    heights_m: [f32; 2],
 }
 
 /// A pool of tiles; the one not used for longest makes room.
@@ -72,9 +74,15 @@ impl TilePool {
         for (key, vertices) in missing.iter().zip(&made) {
             let index = self.free.pop().expect("room was made for every tile");
             gpu.queue.write_buffer(&self.buffer, TILE_BYTES * u64::from(index), bytemuck::cast_slice(vertices));
-            self.slots.insert(*key, Slot { index, last_used: self.frame });
+            let heights_m = range(vertices.iter().map(|vertex| [vertex[0]; 2]));
+            self.slots.insert(*key, Slot { index, last_used: self.frame, heights_m });
         }
         Ok(keys.iter().map(|key| self.slots[key].index).collect())
+    }
+
+    /// Heights in m of the lowest and the highest vertex of tiles that are present.
+    pub(super) fn height_range_m(&self, keys: &[TileKey]) -> [f64; 2] {
+        range(keys.iter().map(|key| self.slots[key].heights_m)).map(f64::from)
     }
 
     fn touch(&mut self, key: &TileKey) -> bool {
@@ -101,4 +109,10 @@ impl TilePool {
             self.free.push(index);
         }
     }
+}
+
+/// The range that holds all ranges; from ∞ to -∞ without any.
+fn range(ranges: impl Iterator<Item = [f32; 2]>) -> [f32; 2] {
+    let wider = |[low, high]: [f32; 2], other: [f32; 2]| [low.min(other[0]), high.max(other[1])];
+    ranges.fold([f32::INFINITY, f32::NEG_INFINITY], wider)
 }
