@@ -88,7 +88,12 @@ fn a_shape_with_an_impossible_texture_number() {
     std::fs::write(&path, format!("{whole}f 1/1 2/1 3/-9223372036854775808\n")).expect("a file");
     let error = Mesh::read(&path, 1.0).expect_err("refused").to_string();
     assert!(error.ends_with("body.obj, line 5: '3/-9223372036854775808' is not a corner of a face"), "{error}");
-    for odd in ["f 1/ 2/1 3/1\n", "f 1/2147483647 2/1 3/1\n", "f 1/-2 2/1 3/1\n", "f 1/0 2/1 3/1\n"] {
+    std::fs::write(&path, format!("{whole}f 1/1 2/-2 3/1\n")).expect("a file");
+    let error = Mesh::read(&path, 1.0).expect_err("refused").to_string();
+    assert!(error.ends_with("body.obj, line 5: '2/-2' is not a corner of a face"), "{error}");
+    for odd in
+        ["f 1/ 2/1 3/1\n", "f 1/-1 2/-1 3/-1\n", "f 1/2147483647 2/1 3/1\n", "f 1/-2 2/1 3/1\n", "f 1/0 2/1 3/1\n"]
+    {
         std::fs::write(&path, format!("{whole}{odd}")).expect("a file");
         if let Err(error) = Mesh::read(&path, 1.0) {
             assert!(error.to_string().contains("body.obj"), "{error}");

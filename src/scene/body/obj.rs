@@ -23,7 +23,7 @@ pub(super) fn read(content: &[u8], metres_per_unit: f64) -> Result<ShapeFile, Sh
 
 /// Checks vertices and faces line by line; the error is a line number from 1 and what is wrong there.
 fn check_lines(text: &str) -> Result<(), (usize, String)> {
-    let mut vertices = 0_i64;
+    let (mut vertices, mut textures, mut normals) = (0_i64, 0_i64, 0_i64);
     let mut faces = 0;
     let mut highest = (0_i64, 0_usize); // largest vertex number, and its line
     for (index, line) in text.lines().enumerate() {
@@ -34,8 +34,11 @@ fn check_lines(text: &str) -> Result<(), (usize, String)> {
                 check_vertex(fields).map_err(fault)?;
                 vertices += 1;
             }
+            Some("vt") => textures += 1,
+            Some("vn") => normals += 1,
             Some("f") => {
-                highest = highest.max((largest_number(fields, vertices).map_err(fault)?, index + 1));
+                let counts = [vertices, textures, normals];
+                highest = highest.max((largest_number(fields, counts).map_err(fault)?, index + 1));
                 faces += 1;
             }
             _ => {}
@@ -64,15 +67,21 @@ fn check_vertex<'a>(fields: impl Iterator<Item = &'a str>) -> Result<(), String>
     }
 }
 
-/// Largest vertex number of a face, from 1; negative ones in the file count back from the last vertex so far.
-fn largest_number<'a>(fields: impl Iterator<Item = &'a str>, vertices: i64) -> Result<i64, String> {
+/// Largest vertex number of a face, from 1; negative ones in the file count back from the last so far, of which there are
+/// `vertices`, `textures` and `normals`.
+fn largest_number<'a>(
+    fields: impl Iterator<Item = &'a str>,
+    [vertices, textures, normals]: [i64; 3],
+) -> Result<i64, String> {
     let (mut count, mut largest) = (0, 0);
     for field in fields {
         let mut numbers = field.split('/');
         let fault = || format!("'{field}' is not a corner of a face");
         let number = numbers.next().and_then(|text| text.parse::<i64>().ok()).ok_or_else(fault)?;
         // The numbers of texture coordinates and normals, either of which may be left out.
-        if !numbers.all(|text| text.is_empty() || text.parse::<i32>().is_ok()) {
+        let exists = |text: &str, count: i64| text.parse::<i32>().is_ok_and(|n| count + i64::from(n) >= 0);
+        let mut others = numbers.zip([textures, normals]);
+        if !others.all(|(text, count)| text.is_empty() || exists(text, count)) {
             return Err(fault());
         }
         let absolute = if number < 0 { vertices.saturating_add(number).saturating_add(1) } else { number };
