@@ -7,10 +7,11 @@ use crate::dataset::{
     CameraSource, ImageSequence, StampedPose, read_designated, read_imu, read_initial_state, write_tum,
 };
 use crate::navigation::landing::{
-    ImuRecord, LandingConfig, LandingEpoch, LandingInput, LandingResult, navigate, write_covariance_csv,
-    write_estimate_csv,
+    ImageRotation, ImuBiases, ImuRecord, LandingConfig, LandingEpoch, LandingInput, LandingResult, navigate,
+    write_covariance_csv, write_estimate_csv,
 };
-use crate::vision::{FrontEnd, FrontEndConfig, TrackInputs};
+use crate::vision::{FrontEnd, FrontEndConfig, PairStatus, RelativeRotation, TrackInputs};
+use nalgebra::Isometry3;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -46,7 +47,7 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
     let lander_from_camera = sequence.sensor.spacecraft_from_camera;
     let record = ImuRecord { samples: &imu, noise: &imu_noise };
     let prior = |from_ns: i64, to_ns: i64| {
-        let lander_from_from_lander_to = record.between(from_ns, to_ns).ok()?.before_from_after;
+        let lander_from_from_lander_to = record.between(from_ns, to_ns, &ImuBiases::default()).ok()?.before_from_after;
         let mount = lander_from_camera.rotation;
         Some(mount.inverse() * lander_from_from_lander_to.inverse() * mount)
     };
@@ -65,6 +66,8 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
         observations: front_end.observations.clone(),
         frame_times_ns: front_end.frames.iter().map(|f| f.t_ns).collect(),
         initial,
+        known: Vec::new(),
+        rotations: image_rotations(&front_end, &lander_from_camera),
     };
     let start = Instant::now();
     progress.begin("navigating", input.frame_times_ns.len());
@@ -99,6 +102,28 @@ fn with_designated_errors(config: &LandingConfig, front_end: &FrontEnd) -> Landi
         designated_drift_px: (variance_px2 / (steps.len() - 1).max(1) as f64).sqrt(),
         ..config.clone()
     }
+}
+
+/// The rotations between adjacent pictures in lander axes.
+fn image_rotations(front_end: &FrontEnd, lander_from_camera: &Isometry3<f64>) -> Vec<ImageRotation> {
+    let mount = lander_from_camera.rotation;
+    let turn = mount.to_rotation_matrix().into_inner();
+    let adjacent = |r: &&RelativeRotation| {
+        front_end.frames.windows(2).any(|pair| (pair[0].t_ns, pair[1].t_ns) == (r.t_ns_from, r.t_ns_to))
+    };
+    let usable = front_end.rotations.iter().filter(|r| r.status == PairStatus::Ok);
+    let mut rotations: Vec<ImageRotation> = usable
+        .filter(adjacent)
+        .map(|r| ImageRotation {
+            from_t_ns: r.t_ns_from,
+            to_t_ns: r.t_ns_to,
+            after_from_before: mount * r.camera_to_from_camera_from * mount.inverse(),
+            covariance_rad2: turn * r.covariance_rad2 * turn.transpose(),
+        })
+        .collect();
+    rotations.sort_by_key(|r| r.to_t_ns);
+    rotations.dedup_by_key(|r| r.to_t_ns);
+    rotations
 }
 
 fn write_result(

@@ -1,12 +1,13 @@
 //! The reference descent, simulated: quartic position polynomials, thrust along the lander's z axis, yaw 0.
 
-use nalgebra::{Isometry3, SMatrix, SVector, Unit, UnitQuaternion, Vector3};
+use nalgebra::{DMatrix, Isometry3, SMatrix, SVector, Unit, UnitQuaternion, Vector3};
 use opnav::dataset::InitialState;
-use opnav::geometry::so3::{exp, log, tangent_basis};
+use opnav::geometry::so3::{exp, hat, log, tangent_basis};
 use opnav::navigation::filter::Gate;
 use opnav::navigation::landing::{
-    BearingObservation, CorrectionModel, DescentEstimate, FilterKind, ImuIncrement, InitializationModel, LandingConfig,
-    correct, initial_estimate, predict, viewpoint, with_landmark, without_landmark,
+    BearingObservation, Core, CorrectionModel, DescentEstimate, DescentState, FilterKind, ImuIncrement,
+    InitializationModel, LandingConfig, Planet, correct, initial_estimate, predict, viewpoint, with_landmark,
+    without_landmark,
 };
 use opnav::navigation::landmark::{GroundPrior, Selector};
 use opnav::stats::{normalized_error_squared, random_stream};
@@ -16,6 +17,8 @@ use rand_distr::{Distribution, StandardNormal};
 
 pub const END_S: f64 = 198.0;
 pub const GRAVITY_IN_SITE_M_S2: Vector3<f64> = Vector3::new(0.0, 0.0, -3.711);
+pub const PLANET: Planet =
+    Planet { gravity_in_site_m_s2: GRAVITY_IN_SITE_M_S2, rate_in_site_rad_s: Vector3::new(0.0, 0.0, 0.0) };
 pub const SIGMA_BEARING_RAD: f64 = 1e-3;
 const SIGMA_FORCE_M_S2: f64 = 5e-4;
 const SIGMA_RATE_RAD_S: f64 = 2.78e-5 * std::f64::consts::PI / 180.0;
@@ -67,7 +70,7 @@ pub fn exact_increment(from: &Truth, to: &Truth, t: f64) -> ImuIncrement {
         before_from_after: from.lander_from_site * to.lander_from_site.inverse(),
         velocity_in_before_m_s: from.lander_from_site * (to.velocity_m_s - from.velocity_m_s - g * t),
         position_in_before_m: from.lander_from_site * (to.position_m - fallen_m),
-        covariance: SMatrix::zeros(),
+        ..ImuIncrement::identity()
     }
 }
 
@@ -86,6 +89,7 @@ pub fn noisy_increment(exact: &ImuIncrement, random: &mut ChaCha8Rng) -> ImuIncr
         velocity_in_before_m_s: exact.velocity_in_before_m_s - e.fixed_rows::<3>(3),
         position_in_before_m: exact.position_in_before_m - e.fixed_rows::<3>(6),
         covariance: by_noise * by_noise.transpose(),
+        ..ImuIncrement::identity()
     }
 }
 
@@ -187,7 +191,7 @@ pub fn fly(case: &Case, run: u64) -> Vec<Epoch> {
     let mut random = random_stream(2023, "descent", run);
     let config = LandingConfig { filter: case.kind, selector: case.selector, ..LandingConfig::default() };
     let init = InitializationModel { kind: case.kind, camera_in_lander_m: Vector3::zeros(), ground: config.ground };
-    let mut estimate = initial_estimate(&uncertain_start(&mut random), case.kind);
+    let mut estimate = initial_estimate(&uncertain_start(&mut random), &config);
     let mut points: Vec<Vector3<f64>> = vec![Vector3::zeros()];
     let mut epochs = Vec::new();
     for k in 0..=END_S as usize {
@@ -212,8 +216,9 @@ pub fn fly(case: &Case, run: u64) -> Vec<Epoch> {
                 gate: Gate { confidence: 1.0 - 1e-9 },
                 iterations: if k == 0 { 6 } else { 1 },
                 camera_in_lander_m: Vector3::zeros(),
+                second_order: true,
             };
-            let Some(corrected) = correct(&estimate, &seen, &model) else { break };
+            let Some(corrected) = correct(estimate.clone(), &seen, &model) else { break };
             estimate = corrected.estimate;
             for slot in 0..case.landmarks {
                 if estimate.state.landmarks.iter().any(|l| l.slot == slot) {
@@ -252,14 +257,27 @@ fn on_ground(now: &Truth, direction_in_lander: &Vector3<f64>, random: &mut ChaCh
 }
 
 fn moved(estimate: &DescentEstimate, increment: &ImuIncrement, case: &Case) -> DescentEstimate {
-    let right = predict(estimate, increment, &GRAVITY_IN_SITE_M_S2, case.kind);
+    let right = predict(estimate.clone(), increment, &PLANET, case.kind);
     if case.mistake != Mistake::PrintedSigns {
         return right;
     }
-    let wrong = case.kind.transition(&estimate.state, &right.state, increment, &-GRAVITY_IN_SITE_M_S2);
-    let covariance = &wrong.by_state * &estimate.covariance * wrong.by_state.transpose()
-        + &wrong.by_noise * increment.covariance * wrong.by_noise.transpose();
+    let wrong = printed_transition(&estimate.state, &right.state, increment);
+    let by_noise = case.kind.transition(&Core::of(&estimate.state), &right.state, increment, &PLANET).noise_matrix();
+    let covariance =
+        &wrong * &estimate.covariance * wrong.transpose() + &by_noise * increment.covariance * by_noise.transpose();
     DescentEstimate { covariance, ..right }
+}
+
+/// Φ with Φ13 and Φ23 as equations (8) and (9) print them: the signs of g are wrong.
+fn printed_transition(before: &DescentState, after: &DescentState, increment: &ImuIncrement) -> DMatrix<f64> {
+    let (t, g) = (increment.duration_s, GRAVITY_IN_SITE_M_S2);
+    let mut phi = FilterKind::Standard.transition(&Core::of(before), after, increment, &PLANET).state_matrix();
+    let site_from_lander = before.lander_from_site.inverse().to_rotation_matrix().into_inner();
+    let moved_m = before.lander_in_site_m - after.lander_in_site_m + before.lander_velocity_in_site_m_s * t;
+    let gained_m_s = before.lander_velocity_in_site_m_s - after.lander_velocity_in_site_m_s;
+    phi.fixed_view_mut::<3, 3>(0, 6).copy_from(&(hat(&(moved_m - g * (0.5 * t * t))) * site_from_lander));
+    phi.fixed_view_mut::<3, 3>(3, 6).copy_from(&(hat(&(gained_m_s - g * t)) * site_from_lander));
+    phi
 }
 
 fn forget_correlations(estimate: &mut DescentEstimate) {

@@ -153,7 +153,17 @@ pub fn fly(flight: &Flight, run: u64) -> LandingInput {
         }
     }
     let initial = scaled(flight, &mut random);
-    LandingInput { imu, imu_noise, camera, lander_from_camera, observations, frame_times_ns, initial }
+    LandingInput {
+        imu,
+        imu_noise,
+        camera,
+        lander_from_camera,
+        observations,
+        frame_times_ns,
+        initial,
+        known: Vec::new(),
+        rotations: Vec::new(),
+    }
 }
 
 /// The surface point under the designated pixel.

@@ -1,14 +1,14 @@
 //! Every analytic Jacobian of both filters against central differences, and what yaw must never do.
 
-use super::descent::{GRAVITY_IN_SITE_M_S2, exact_increment, truth};
+use super::descent::{PLANET, exact_increment, truth};
 use nalgebra::{DVector, Isometry3, Matrix2, SMatrix, SVector, Unit, UnitQuaternion, Vector2, Vector3};
 use opnav::dataset::{ImuNoise, ImuSample};
 use opnav::geometry::so3::{exp, log, tangent_basis};
 use opnav::geometry::{Camera, Distortion, Manifold, central_difference};
 use opnav::navigation::filter::Gate;
 use opnav::navigation::landing::{
-    BearingObservation, CameraMount, CorrectionModel, DescentEstimate, DescentState, FilterKind, ImuIncrement,
-    ImuRecord, UnknownLandmark, innovation, predict,
+    BearingObservation, CameraMount, Core, CorrectionModel, DescentEstimate, DescentState, FilterKind, ImuBiases,
+    ImuIncrement, ImuRecord, UnknownLandmark, innovation, predict,
 };
 use opnav::vision::TrackObservation;
 
@@ -21,13 +21,8 @@ fn state() -> DescentState {
         lander_in_site_m: now.position_m,
         lander_velocity_in_site_m_s: now.velocity_m_s,
         lander_from_site: UnitQuaternion::from_euler_angles(0.2, -0.1, 0.7),
-        landmarks: vec![UnknownLandmark {
-            track_id: 4,
-            position_in_site_m: Vector3::new(1400.0, 3300.0, 12.0),
-            observations: 0,
-            gated: 0,
-            slot: 0,
-        }],
+        biases: None,
+        landmarks: vec![UnknownLandmark::new(4, Vector3::new(1400.0, 3300.0, 12.0), 0)],
     }
 }
 
@@ -43,7 +38,7 @@ struct Chart(FilterKind, DescentState);
 
 impl Manifold<12> for Chart {
     fn plus(&self, d: &SVector<f64, 12>) -> Self {
-        Chart(self.0, self.0.retract(&self.1, &DVector::from_column_slice(d.as_slice())))
+        Chart(self.0, self.0.retract(self.1.clone(), d.as_slice()))
     }
     fn minus(&self, other: &Self) -> SVector<f64, 12> {
         let (a, b) = (&self.1, &other.1);
@@ -68,7 +63,7 @@ impl Manifold<12> for Chart {
 
 fn moved(state: &DescentState, increment: &ImuIncrement) -> DescentState {
     let estimate = DescentEstimate { state: state.clone(), covariance: nalgebra::DMatrix::zeros(12, 12) };
-    predict(&estimate, increment, &GRAVITY_IN_SITE_M_S2, FilterKind::Hybrid).state
+    predict(estimate, increment, &PLANET, FilterKind::Hybrid).state
 }
 
 /// The paper's q = [q_v; q_w] and its C(q) = I - 2 q_w [q_v×] + 2 [q_v×]² are our `lander_from_site`, q_v with its sign
@@ -85,7 +80,7 @@ fn attitude_agrees_with_the_papers_quaternion() {
     assert!((matrix(paper(&c)) - c.to_rotation_matrix().into_inner()).norm() < 1e-14);
     let (rate, dt_s) = (Vector3::new(0.3, -0.2, 0.5), 1e-4);
     let sample = ImuSample { t_ns: 0, rate_in_lander_rad_s: rate, specific_force_in_lander_m_s2: Vector3::zeros() };
-    let after = moved(&before, &ImuIncrement::identity().extended(&sample, dt_s, &NOISE));
+    let after = moved(&before, &ImuIncrement::identity().extended(&sample, dt_s, &NOISE, &ImuBiases::default()));
     let (v, w) = paper(&c);
     let dv = (-rate.cross(&v) + rate * w) * (0.5 * dt_s);
     let dw = -rate.dot(&v) * (0.5 * dt_s);
@@ -107,10 +102,10 @@ fn transition_is_the_derivative_of_the_motion() {
     for kind in KINDS {
         let (before, increment) = (Chart(kind, state()), increment());
         let after = moved(&before.1, &increment);
-        let transition = kind.transition(&before.1, &after, &increment, &GRAVITY_IN_SITE_M_S2);
+        let transition = kind.transition(&Core::of(&before.1), &after, &increment, &PLANET);
         let motion = |c: &Chart| Chart(kind, moved(&c.1, &increment));
         let numeric: SMatrix<f64, 12, 12> = central_difference(motion, &before, 1e-4);
-        let analytic = SMatrix::<f64, 12, 12>::from_column_slice(transition.by_state.as_slice());
+        let analytic = SMatrix::<f64, 12, 12>::from_column_slice(transition.state_matrix().as_slice());
         assert!((numeric - analytic).amax() < 2e-5, "{kind:?} F {}", numeric - analytic);
         let noisy = |n: &SVector<f64, 9>| {
             let part = |k: usize| n.fixed_rows::<3>(k).into_owned();
@@ -123,13 +118,19 @@ fn transition_is_the_derivative_of_the_motion() {
             Chart(kind, moved(&before.1, &other))
         };
         let numeric: SMatrix<f64, 12, 9> = central_difference(noisy, &SVector::<f64, 9>::zeros(), 1e-4);
-        let analytic = SMatrix::<f64, 12, 9>::from_column_slice(transition.by_noise.as_slice());
+        let analytic = SMatrix::<f64, 12, 9>::from_column_slice(transition.noise_matrix().as_slice());
         assert!((numeric - analytic).amax() < 1e-4, "{kind:?} G {}", numeric - analytic);
     }
 }
 
 fn model(kind: FilterKind) -> CorrectionModel {
-    CorrectionModel { kind, gate: Gate { confidence: 0.999 }, iterations: 1, camera_in_lander_m: CAMERA_IN_LANDER_M }
+    CorrectionModel {
+        kind,
+        gate: Gate { confidence: 0.999 },
+        iterations: 1,
+        camera_in_lander_m: CAMERA_IN_LANDER_M,
+        second_order: true,
+    }
 }
 
 fn bearing_to(state: &DescentState, track_id: u64, point_m: &Vector3<f64>) -> BearingObservation {
@@ -146,7 +147,7 @@ fn prediction_never_shrinks_the_covariance() {
         let covariance = nalgebra::DMatrix::from_diagonal(&DVector::from_fn(12, |k, _| 0.1 + 0.01 * k as f64));
         let before = DescentEstimate { state: state(), covariance };
         for (increment, grows) in [(increment(), false), (noisy.clone(), true)] {
-            let after = predict(&before, &increment, &GRAVITY_IN_SITE_M_S2, kind);
+            let after = predict(before.clone(), &increment, &PLANET, kind);
             let ratio = after.covariance.determinant() / before.covariance.determinant();
             assert!(ratio > 1.0 - 1e-9 && (ratio > 1.0 + 1e-6) == grows, "{kind:?}: {ratio}");
         }
@@ -164,7 +165,7 @@ fn measurement_jacobian_is_the_derivative_of_the_bearing() {
         assert!(here.residual.norm() < 1e-12, "{kind:?} residual at the truth");
         let residual = |c: &Chart| Vector2::from_column_slice((-at(&c.1).residual).as_slice());
         let numeric: SMatrix<f64, 2, 12> = central_difference(residual, &Chart(kind, state.clone()), 1e-4);
-        let analytic = SMatrix::<f64, 2, 12>::from_column_slice(here.jacobian.as_slice());
+        let analytic = SMatrix::<f64, 2, 12>::from_column_slice(here.dense(12).jacobian.as_slice());
         assert!((numeric - analytic).amax() < 1e-8, "{kind:?} track {track}: {}", numeric - analytic);
     }
 }
@@ -189,13 +190,14 @@ fn yaw_is_never_observed() {
         for (track, point_m) in [(0, Vector3::zeros()), (4, landmark_m)] {
             let bearing = bearing_to(&state, track, &point_m);
             let model = CorrectionModel { camera_in_lander_m: Vector3::zeros(), ..model(kind) };
-            let h = innovation(&state, &bearing, &Matrix2::identity(), &model).expect("ahead").jacobian;
+            let h = innovation(&state, &bearing, &Matrix2::identity(), &model).expect("ahead").dense(12).jacobian;
             assert!((h * &yaw).norm() <= 1e-12, "{kind:?} track {track}");
         }
     }
     let increment = increment();
-    let f =
-        FilterKind::Hybrid.transition(&state, &moved(&state, &increment), &increment, &GRAVITY_IN_SITE_M_S2).by_state;
+    let f = FilterKind::Hybrid
+        .transition(&Core::of(&state), &moved(&state, &increment), &increment, &PLANET)
+        .state_matrix();
     let expected = DVector::from_fn(12, |k, _| if k == 8 { 1.0 } else { 0.0 });
     assert_eq!(f.column(8).into_owned(), expected);
 }
@@ -206,15 +208,20 @@ fn landmark_on_ground_has_the_right_derivatives() {
     let bearing = bearing_to(&state, 9, &Vector3::new(300.0, 900.0, 0.0));
     for kind in KINDS {
         let at = |s: &DescentState, b: &BearingObservation, height_m: f64| {
-            let spot = kind.landmark_on_ground(s, b, &CAMERA_IN_LANDER_M, height_m).expect("it looks down");
+            let spot =
+                kind.point_on_ground(s, &b.direction_in_lander, &CAMERA_IN_LANDER_M, height_m).expect("it looks down");
             let p = spot.position_in_site_m;
             if kind == FilterKind::Hybrid { s.lander_from_site * p } else { p }
         };
-        let spot = kind.landmark_on_ground(&state, &bearing, &CAMERA_IN_LANDER_M, 0.0).expect("it looks down");
+        let spot = kind
+            .point_on_ground(&state, &bearing.direction_in_lander, &CAMERA_IN_LANDER_M, 0.0)
+            .expect("it looks down");
         assert!((spot.position_in_site_m - Vector3::new(300.0, 900.0, 0.0)).norm() < 1e-9);
         let numeric: SMatrix<f64, 3, 12> =
             central_difference(|c: &Chart| at(&c.1, &bearing, 0.0), &Chart(kind, state.clone()), 1e-4);
-        let analytic = SMatrix::<f64, 3, 12>::from_column_slice(spot.by_state.as_slice());
+        let mut analytic = SMatrix::<f64, 3, 12>::zeros();
+        analytic.fixed_view_mut::<3, 3>(0, 0).copy_from(&spot.by_position);
+        analytic.fixed_view_mut::<3, 3>(0, 6).copy_from(&spot.by_attitude);
         assert!((numeric - analytic).amax() < 1e-4, "{kind:?} by state {}", numeric - analytic);
         let by_height = (at(&state, &bearing, 0.5) - at(&state, &bearing, -0.5)) - spot.by_height;
         assert!(by_height.norm() < 1e-8, "{kind:?} by height");
@@ -227,7 +234,7 @@ fn landmark_on_ground_has_the_right_derivatives() {
         assert!((numeric - spot.by_bearing * across).amax() < 1e-4, "{kind:?} by bearing");
     }
     let upward = BearingObservation::from_sigma(9, state.lander_from_site * Vector3::z_axis(), 1e-3);
-    assert_eq!(FilterKind::Hybrid.landmark_on_ground(&state, &upward, &CAMERA_IN_LANDER_M, 0.0), None);
+    assert_eq!(FilterKind::Hybrid.point_on_ground(&state, &upward.direction_in_lander, &CAMERA_IN_LANDER_M, 0.0), None);
 }
 
 /// Second-order site covariance against samples: errors of 1.7° about the vertical at 4 km make a clear arc.
@@ -245,7 +252,7 @@ fn site_covariance_has_the_second_order() {
     for _ in 0..samples {
         let unit = SVector::<f64, 9>::from_fn(|_, _| super::descent::normal3(&mut random, 1.0).x);
         let error = DVector::from_column_slice(unit.component_mul(&sigma).as_slice());
-        let moved = FilterKind::Hybrid.retract(&state, &error);
+        let moved = FilterKind::Hybrid.retract(state.clone(), error.as_slice());
         let mut e = SVector::<f64, 9>::zeros();
         e.fixed_rows_mut::<3>(0).copy_from(&(moved.lander_in_site_m - state.lander_in_site_m));
         e.fixed_rows_mut::<3>(3).copy_from(&(moved.lander_velocity_in_site_m_s - state.lander_velocity_in_site_m_s));
@@ -300,9 +307,9 @@ fn increments_compose() {
     let mut state = state();
     state.landmarks.clear();
     let start = DescentEstimate { state, covariance: nalgebra::DMatrix::zeros(9, 9) };
-    let g = GRAVITY_IN_SITE_M_S2;
+    let between = |from_ns, to_ns| imu.between(from_ns, to_ns, &ImuBiases::default()).expect("covered");
     let go = |e: &DescentEstimate, from_ns, to_ns| {
-        predict(e, &imu.between(from_ns, to_ns).expect("covered"), &g, FilterKind::Standard)
+        predict(e.clone(), &between(from_ns, to_ns), &PLANET, FilterKind::Standard)
     };
     let once = go(&start, 0, 2_000_000_000);
     let twice = go(&go(&start, 0, 703_000_000), 703_000_000, 2_000_000_000);
@@ -312,7 +319,8 @@ fn increments_compose() {
     assert!((&once.covariance - &twice.covariance).norm() < 1e-3 * once.covariance.norm());
     let variance_m2_s2 = NOISE.accelerometer_noise_density.powi(2) * 2.0;
     let quiet = ImuNoise { gyroscope_noise_density: 1e-12, ..NOISE };
-    let alone = ImuRecord { samples: &samples, noise: &quiet }.between(0, 2_000_000_000).expect("covered").covariance;
+    let record = ImuRecord { samples: &samples, noise: &quiet };
+    let alone = record.between(0, 2_000_000_000, &ImuBiases::default()).expect("covered").covariance;
     assert!((alone[(4, 4)] / variance_m2_s2 - 1.0).abs() < 1e-9);
     assert!((alone[(7, 7)] / (variance_m2_s2 * 4.0 / 3.0) - 1.0).abs() < 1e-3);
 }

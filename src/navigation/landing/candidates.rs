@@ -20,7 +20,7 @@ pub fn viewpoint(
         lander_in_site_m: state.lander_in_site_m,
         lander_velocity_in_site_m_s: state.lander_velocity_in_site_m_s,
         specific_force_in_site_m_s2: state.lander_from_site.inverse() * force_in_lander,
-        gravity_in_site_m_s2: config.gravity_in_site_m_s2(),
+        gravity_in_site_m_s2: config.planet().gravity_in_site_m_s2,
         interval_s,
         sigma_bearing_rad,
         covariance: config.filter.site_covariance(estimate),

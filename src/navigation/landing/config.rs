@@ -1,6 +1,6 @@
 //! Options of the landing navigation.
 
-use super::LandingError;
+use super::{ImageRotationUse, LandingError, Planet};
 use crate::navigation::filter::Gate;
 use crate::navigation::landmark::{GroundPrior, Selector};
 use nalgebra::Vector3;
@@ -17,6 +17,27 @@ pub enum FilterKind {
     Standard,
 }
 
+/// How an unknown landmark gets its first place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LandmarkStart {
+    /// Where its first bearing meets the plane of the ground, at once.
+    #[default]
+    Plane,
+    /// Where two of its bearings meet, once they do so at an angle: nothing is taken to be known of the ground.
+    Delayed,
+}
+
+/// What is known of the IMU's biases at the start: 0, give or take.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BiasPrior {
+    /// 1σ of the gyroscope's bias, each axis, rad/s.
+    pub sigma_gyroscope_rad_s: f64,
+    /// 1σ of the accelerometer's bias, each axis, m/s².
+    pub sigma_accelerometer_m_s2: f64,
+}
+
 /// Options of [`navigate`](super::navigate).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -31,8 +52,22 @@ pub struct LandingConfig {
     /// Accepted observations of an unknown landmark, after the one that initialises it, before another may take its place
     /// (default 3).
     pub reselect_after: usize,
+    /// How an unknown landmark gets its first place (default plane).
+    pub landmark_start: LandmarkStart,
+    /// Least angle at which two bearings place a landmark without a plane, rad (default 0.05).
+    pub least_parallax_rad: f64,
     /// Gravity at the site, downward, m/s² (default 3.711, Mars).
     pub gravity_m_s2: f64,
+    /// Rotation of the planet in the site's axes, rad/s (default 0, as in the paper; Mars turns by 7.088e-5 about its
+    /// own axis).
+    pub planet_rate_in_site_rad_s: [f64; 3],
+    /// Estimate the biases of the IMU (default: they are 0).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub biases: Option<BiasPrior>,
+    /// What is done with the rotations between images (default check).
+    pub image_rotation: ImageRotationUse,
+    /// Whether the noise of a bearing counts what its curvature leaves unmodelled (default true).
+    pub second_order_noise: bool,
     /// Images from a lower estimated height than this are not used, m (default 15).
     pub minimum_image_height_m: f64,
     /// Least 1σ of a pixel coordinate, px, whatever the tracker claims (default 0.1).
@@ -60,7 +95,13 @@ impl Default for LandingConfig {
             selector: Selector::DepthError,
             unknown_landmarks: 1,
             reselect_after: 3,
+            landmark_start: LandmarkStart::Plane,
+            least_parallax_rad: 0.05,
             gravity_m_s2: 3.711,
+            planet_rate_in_site_rad_s: [0.0; 3],
+            biases: None,
+            image_rotation: ImageRotationUse::Check,
+            second_order_noise: true,
             minimum_image_height_m: 15.0,
             sigma_floor_px: 0.1,
             gate_confidence: 0.9999,
@@ -81,9 +122,12 @@ impl LandingConfig {
         LandingConfig { unknown_landmarks: 3, reselect_after: 8, ..LandingConfig::default() }
     }
 
-    /// Gravity in the site frame, m/s².
-    pub fn gravity_in_site_m_s2(&self) -> Vector3<f64> {
-        Vector3::new(0.0, 0.0, -self.gravity_m_s2)
+    /// Gravity and rotation of the site.
+    pub fn planet(&self) -> Planet {
+        Planet {
+            gravity_in_site_m_s2: Vector3::new(0.0, 0.0, -self.gravity_m_s2),
+            rate_in_site_rad_s: Vector3::from(self.planet_rate_in_site_rad_s),
+        }
     }
 
     /// The innovation gate.
@@ -98,7 +142,17 @@ impl LandingConfig {
     pub fn validate(&self) -> Result<(), LandingError> {
         let open_unit = |x: f64| x > 0.0 && x < 1.0;
         let g = &self.ground;
+        let rate_rad_s = Vector3::from(self.planet_rate_in_site_rad_s).norm();
+        let bias = self.biases.map_or(1.0, |b| b.sigma_gyroscope_rad_s.min(b.sigma_accelerometer_m_s2));
         let checks = [
+            ("planet_rate_in_site_rad_s", rate_rad_s, rate_rad_s < 1e-2, "give rad/s; Mars turns by 7.088e-5"),
+            ("biases", bias, bias > 0.0, "give positive sigmas, or leave the key out"),
+            (
+                "least_parallax_rad",
+                self.least_parallax_rad,
+                self.least_parallax_rad > 0.0 && self.least_parallax_rad < 1.5,
+                "use 0.05 or so, below 1.5",
+            ),
             ("gravity_m_s2", self.gravity_m_s2, self.gravity_m_s2 >= 0.0, "give it as a positive number"),
             ("minimum_image_height_m", self.minimum_image_height_m, self.minimum_image_height_m > 0.0, "use 1 or more"),
             ("sigma_floor_px", self.sigma_floor_px, self.sigma_floor_px > 0.0, "use 0.1 or so"),

@@ -4,8 +4,8 @@
 //! prior, and each image lets it wander by the tracker's drift. Without errors it is the origin, as in the paper.
 
 use super::measurement::BearingObservation;
-use super::state::{LANDMARKS, UnknownLandmark};
-use super::{CameraMount, DescentEstimate, FilterKind, LandingConfig};
+use super::state::UnknownLandmark;
+use super::{CameraMount, DescentEstimate, LandingConfig};
 use crate::geometry::so3::tangent_basis;
 use crate::vision::TrackObservation;
 use nalgebra::{Matrix3, Vector3};
@@ -20,7 +20,8 @@ pub(super) fn with_designated_errors(
     if config.designated_sigma_px == 0.0 && config.designated_drift_px == 0.0 {
         return estimate;
     }
-    let Some(bearing) = bearings.iter().find(|b| b.track_id == TrackObservation::DESIGNATED) else {
+    let is_designated = |b: &&BearingObservation| b.known.is_none() && b.track_id == TrackObservation::DESIGNATED;
+    let Some(bearing) = bearings.iter().find(is_designated) else {
         return estimate;
     };
     let index = estimate.state.landmark_of(TrackObservation::DESIGNATED);
@@ -28,7 +29,7 @@ pub(super) fn with_designated_errors(
     let sigma_rad = sigma_px / mount.camera.mean_focal_px();
     let wander = on_ground(&estimate, bearing, mount, config, sigma_rad);
     let mut after = if index.is_some() { estimate } else { with_exact_point(estimate) };
-    let start = LANDMARKS + 3 * index.unwrap_or(after.state.landmarks.len() - 1);
+    let start = after.state.start_of(index.unwrap_or(after.state.landmarks.len() - 1));
     let mut block = after.covariance.fixed_view_mut::<3, 3>(start, start);
     block += wander;
     after
@@ -44,28 +45,20 @@ fn on_ground(
     sigma_rad: f64,
 ) -> Matrix3<f64> {
     let camera_in_lander_m = mount.camera_in_lander_m();
-    let Some(spot) = config.filter.landmark_on_ground(&estimate.state, bearing, &camera_in_lander_m, 0.0) else {
+    let z = bearing.direction_in_lander.into_inner();
+    let Some(spot) = config.filter.point_on_ground(&estimate.state, &z, &camera_in_lander_m, 0.0) else {
         return Matrix3::zeros();
     };
     let across = spot.by_bearing * tangent_basis(&bearing.direction_in_lander) * sigma_rad;
     let level = across * across.transpose();
-    let up = match config.filter {
-        FilterKind::Hybrid => estimate.state.lander_from_site * Vector3::z(),
-        FilterKind::Standard => Vector3::z(),
-    };
+    let up = config.filter.in_error_axes(&estimate.state, &Vector3::z());
     level + up * up.transpose() * (config.ground.sigma_slope.powi(2) * level.trace())
 }
 
 /// The origin as a landmark of the state, its covariance still 0.
 fn with_exact_point(estimate: DescentEstimate) -> DescentEstimate {
     let mut state = estimate.state;
-    state.landmarks.push(UnknownLandmark {
-        track_id: TrackObservation::DESIGNATED,
-        position_in_site_m: Vector3::zeros(),
-        observations: 0,
-        gated: 0,
-        slot: usize::MAX,
-    });
+    state.landmarks.push(UnknownLandmark::new(TrackObservation::DESIGNATED, Vector3::zeros(), usize::MAX));
     let n = estimate.covariance.nrows() + 3;
     DescentEstimate { state, covariance: estimate.covariance.resize(n, n, 0.0) }
 }

@@ -35,8 +35,11 @@ pub enum LandingError {
         /// Where, ns.
         t_ns: i64,
     },
-    /// The IMU does not cover a stretch of time.
-    #[error("the IMU has no samples between {from_ns} ns and {to_ns} ns: give a complete record, or drop those frames")]
+    /// The IMU does not cover a stretch of time that is too long to be bridged.
+    #[error(
+        "the IMU has no samples between {from_ns} ns and {to_ns} ns, too long to bridge: give a complete record of the \
+         same time, or drop those frames"
+    )]
     ImuGap {
         /// Start in ns.
         from_ns: i64,

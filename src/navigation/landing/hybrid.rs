@@ -4,45 +4,40 @@
 //! The bearing of a landmark depends on l - s alone and the motion on gravity alone, so that a turn about the vertical,
 //! which nothing observes, is exactly the third component of ψ and stays so.
 
-use super::coordinates::{LandmarkJacobians, Transition};
+use super::coordinates::{LandmarkTransition, RayPoint, RelativeJacobian, Transition, part};
 use super::imu::ImuIncrement;
-use super::measurement::BearingObservation;
-use super::state::{ATTITUDE, DescentState, LANDMARKS, POSITION, UnknownLandmark, VELOCITY};
+use super::planet::Planet;
+use super::predict::Core;
+use super::state::{ATTITUDE, BIASES, DescentState, POSITION, VELOCITY, WITH_BIASES};
 use crate::geometry::so3::{exp, hat};
-use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, Vector3};
+use nalgebra::{Matrix3, SMatrix, Vector3};
 
 /// C⁺ = Ĉ exp(-ψ×), r⁺ = C⁺ᵀ (Ĉ r̂ + s̃), and the same for velocity and landmarks.
-pub(super) fn retract(state: &DescentState, error: &DVector<f64>) -> DescentState {
-    let part = |start: usize| error.fixed_rows::<3>(start).into_owned();
-    let lander_from_site = state.lander_from_site * exp(&-part(ATTITUDE));
-    let moved = |vector: &Vector3<f64>, start: usize| {
-        lander_from_site.inverse_transform_vector(&(state.lander_from_site * vector + part(start)))
-    };
-    let landmarks = state
-        .landmarks
-        .iter()
-        .enumerate()
-        .map(|(k, l)| UnknownLandmark { position_in_site_m: moved(&l.position_in_site_m, LANDMARKS + 3 * k), ..*l });
-    DescentState {
-        lander_in_site_m: moved(&state.lander_in_site_m, POSITION),
-        lander_velocity_in_site_m_s: moved(&state.lander_velocity_in_site_m_s, VELOCITY),
-        lander_from_site,
-        landmarks: landmarks.collect(),
+pub(super) fn retract(mut state: DescentState, error: &[f64]) -> DescentState {
+    let before = state.lander_from_site;
+    let after = before * exp(&-part(error, ATTITUDE));
+    let moved =
+        |vector: &Vector3<f64>, start: usize| after.inverse_transform_vector(&(before * vector + part(error, start)));
+    state.lander_in_site_m = moved(&state.lander_in_site_m, POSITION);
+    state.lander_velocity_in_site_m_s = moved(&state.lander_velocity_in_site_m_s, VELOCITY);
+    state.lander_from_site = after;
+    let start = state.own_size();
+    for (k, landmark) in state.landmarks.iter_mut().enumerate() {
+        landmark.position_in_site_m = moved(&landmark.position_in_site_m, start + 3 * k);
     }
+    state
 }
 
+type Own = SMatrix<f64, WITH_BIASES, WITH_BIASES>;
+
 /// F = blkdiag(M, M, I, M) [I, T I, ½T² Ĉ[g×]; 0, I, T Ĉ[g×]; …] with M = C_j C_iᵀ; the noise of the rotation turns
-/// every vector that is held in lander axes.
-pub(super) fn transition(
-    before: &DescentState,
-    after: &DescentState,
-    increment: &ImuIncrement,
-    gravity_in_site_m_s2: &Vector3<f64>,
-) -> Transition {
-    let (n, t) = (before.error_size(), increment.duration_s);
+/// every vector that is held in lander axes. Where the planet turns, this holds for u = v + ω×r and is changed to v.
+pub(super) fn transition(before: &Core, after: &DescentState, increment: &ImuIncrement, planet: &Planet) -> Transition {
+    let t = increment.duration_s;
     let m = increment.after_from_before();
-    let tilt = m * before.lander_from_site.to_rotation_matrix().into_inner() * hat(gravity_in_site_m_s2);
-    let mut f = DMatrix::identity(n, n);
+    let before_c = before.lander_from_site.to_rotation_matrix().into_inner();
+    let tilt = m * before_c * hat(&planet.mean_gravity_m_s2(t));
+    let mut f = Own::identity();
     let mut set = |row: usize, column: usize, block: Matrix3<f64>| {
         f.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
     };
@@ -51,55 +46,113 @@ pub(super) fn transition(
     set(POSITION, ATTITUDE, tilt * (0.5 * t * t));
     set(VELOCITY, VELOCITY, m);
     set(VELOCITY, ATTITUDE, tilt * t);
-    (0..before.landmarks.len()).for_each(|k| set(LANDMARKS + 3 * k, LANDMARKS + 3 * k, m));
-    Transition { by_state: f, by_noise: noise_jacobian(after, &m) }
+    let c = after.lander_from_site.to_rotation_matrix().into_inner();
+    let landmarks = after.landmarks.iter().map(|l| LandmarkTransition {
+        by_landmark: m,
+        by_state: SMatrix::zeros(),
+        by_rotation_noise: hat(&(c * l.position_in_site_m)),
+    });
+    let mut transition = Transition {
+        own_size: BIASES,
+        by_state: f,
+        by_noise: noise_jacobian(after, &c, &m),
+        landmarks: landmarks.collect(),
+        couples: false,
+    };
+    if planet.turns() {
+        turn_with_planet(&mut transition, (before, after), &(planet.rate_in_site_rad_s, t));
+    }
+    transition
 }
 
 /// Columns: noise of the rotation (axes of the lander after), of the velocity and of the position (before).
-fn noise_jacobian(after: &DescentState, after_from_before: &Matrix3<f64>) -> DMatrix<f64> {
-    let c = &after.lander_from_site;
-    let mut g = DMatrix::zeros(after.error_size(), 9);
-    let mut set = |row: usize, column: usize, block: Matrix3<f64>| {
-        g.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
+fn noise_jacobian(after: &DescentState, c: &Matrix3<f64>, after_from_before: &Matrix3<f64>) -> SMatrix<f64, 9, 9> {
+    let mut g = SMatrix::<f64, 9, 9>::zeros();
+    let mut set = |row: usize, column: usize, block: &Matrix3<f64>| {
+        g.fixed_view_mut::<3, 3>(row, column).copy_from(block);
     };
-    set(POSITION, 0, hat(&(c * after.lander_in_site_m)));
-    set(POSITION, 6, *after_from_before);
-    set(VELOCITY, 0, hat(&(c * after.lander_velocity_in_site_m_s)));
-    set(VELOCITY, 3, *after_from_before);
-    set(ATTITUDE, 0, c.inverse().to_rotation_matrix().into_inner());
-    for (k, landmark) in after.landmarks.iter().enumerate() {
-        set(LANDMARKS + 3 * k, 0, hat(&(c * landmark.position_in_site_m)));
-    }
+    set(POSITION, 0, &hat(&(c * after.lander_in_site_m)));
+    set(POSITION, 6, after_from_before);
+    set(VELOCITY, 0, &hat(&(c * after.lander_velocity_in_site_m_s)));
+    set(VELOCITY, 3, after_from_before);
+    set(ATTITUDE, 0, &c.transpose());
     g
 }
 
-/// l - s: minus the identity for the lander, plus the identity for an unknown landmark.
-pub(super) fn relative_jacobian(state: &DescentState, landmark: Option<usize>) -> DMatrix<f64> {
-    let mut j = DMatrix::zeros(3, state.error_size());
-    j.fixed_view_mut::<3, 3>(0, POSITION).copy_from(&-Matrix3::identity());
-    if let Some(k) = landmark {
-        j.fixed_view_mut::<3, 3>(0, LANDMARKS + 3 * k).copy_from(&Matrix3::identity());
+/// Changes a transition of (s̃, ũ, ψ) in axes that do not turn to one of (s̃, w̃, ψ): ũ = w̃ + [ω_L×] s̃ - [s×] C [ω×] ψ with
+/// ω_L = C ω, and E = exp(ω T): ψ_j = Eᵀ ψ_i, l̃_j = C_j C_iᵀ l̃_i + C_j (Eᵀ [E p×] - [p×]) ψ.
+fn turn_with_planet(
+    transition: &mut Transition,
+    (before, after): (&Core, &DescentState),
+    (rate, time_s): &(Vector3<f64>, f64),
+) {
+    let turn = exp(&(rate * *time_s)).to_rotation_matrix().into_inner();
+    let before_c = before.lander_from_site.to_rotation_matrix().into_inner();
+    let after_c = after.lander_from_site.to_rotation_matrix().into_inner();
+    let of_inertial = |c: &Matrix3<f64>, position_m: &Vector3<f64>| {
+        let mut j = Own::identity();
+        j.fixed_view_mut::<3, 3>(VELOCITY, POSITION).copy_from(&hat(&(c * rate)));
+        j.fixed_view_mut::<3, 3>(VELOCITY, ATTITUDE).copy_from(&(-hat(&(c * position_m)) * c * hat(rate)));
+        j
+    };
+    let inward = of_inertial(&before_c, &before.lander_in_site_m);
+    let outward = Own::identity() * 2.0 - of_inertial(&after_c, &after.lander_in_site_m);
+    let mut f = transition.by_state;
+    f.fixed_view_mut::<3, 3>(ATTITUDE, ATTITUDE).copy_from(&turn.transpose());
+    transition.by_state = outward * f * inward;
+    // The noise of the rotation moves C_j in C_j v_j directly; that of the position moves v_j = … - ω×r_j.
+    let by_position = -hat(&(after_c * rate)) * transition.by_noise.fixed_view::<3, 3>(POSITION, 6);
+    transition.by_noise.fixed_view_mut::<3, 3>(VELOCITY, 6).copy_from(&by_position);
+    let inertial = after_c * turn.transpose();
+    for (landmark, known) in transition.landmarks.iter_mut().zip(&after.landmarks) {
+        let p = known.position_in_site_m;
+        landmark.by_landmark = after_c * before_c.transpose();
+        let by_attitude = inertial * hat(&(turn * p)) - after_c * hat(&p);
+        landmark.by_state.fixed_view_mut::<3, 3>(0, ATTITUDE).copy_from(&by_attitude);
     }
-    j
+    transition.couples = true;
+}
+
+/// l - s: minus the identity for the lander, plus the identity for a landmark of the state; a known point has l = C p.
+pub(super) fn relative_jacobian(
+    state: &DescentState,
+    point_in_site_m: &Vector3<f64>,
+    is_state: bool,
+) -> RelativeJacobian {
+    let (by_attitude, by_landmark) = if is_state {
+        (Matrix3::zeros(), Matrix3::identity())
+    } else if *point_in_site_m == Vector3::zeros() {
+        (Matrix3::zeros(), Matrix3::zeros())
+    } else {
+        (state.lander_from_site.to_rotation_matrix().into_inner() * hat(point_in_site_m), Matrix3::zeros())
+    };
+    RelativeJacobian { by_position: -Matrix3::identity(), by_attitude, by_landmark }
+}
+
+/// l = s + a with the arm a in lander axes.
+pub(super) fn point_of_arm(state: &DescentState, arm_in_lander_m: &Vector3<f64>, reach_m: f64) -> RayPoint {
+    RayPoint {
+        position_in_site_m: state.lander_in_site_m + state.lander_from_site.inverse() * arm_in_lander_m,
+        by_position: Matrix3::identity(),
+        by_attitude: Matrix3::zeros(),
+        by_bearing: Matrix3::identity() * reach_m,
+        by_height: Vector3::zeros(),
+    }
 }
 
 /// l = s + c + d z with d = (h - e_z·Cᵀ(s + c)) / (e_z·Cᵀ z), c the camera and z the bearing in lander axes.
-pub(super) fn landmark_on_ground(
-    state: &DescentState,
-    bearing: &BearingObservation,
-    camera_in_lander_m: &Vector3<f64>,
-    height_m: f64,
-) -> Option<LandmarkJacobians> {
-    let z = bearing.direction_in_lander.into_inner();
-    let (position_in_site_m, depth_m) = super::measurement::ground_point(state, &z, camera_in_lander_m, height_m)?;
+pub(super) fn kept_on_ground(state: &DescentState, free: RayPoint, direction_in_lander: &Vector3<f64>) -> RayPoint {
     let up = state.lander_from_site * Vector3::z();
-    let over_fall = z / up.dot(&z);
+    let over_fall = direction_in_lander / up.dot(direction_in_lander);
     let along_ground = Matrix3::identity() - over_fall * up.transpose();
-    let mut by_state = DMatrix::zeros(3, state.error_size());
-    by_state.fixed_view_mut::<3, 3>(0, POSITION).copy_from(&along_ground);
-    let turn = position_in_site_m.cross(&Vector3::z());
-    by_state.fixed_view_mut::<3, 3>(0, ATTITUDE).copy_from(&(-over_fall * turn.transpose()));
-    Some(LandmarkJacobians { position_in_site_m, by_state, by_bearing: along_ground * depth_m, by_height: over_fall })
+    let turn = free.position_in_site_m.cross(&Vector3::z());
+    RayPoint {
+        by_position: along_ground,
+        by_attitude: -over_fall * turn.transpose(),
+        by_bearing: along_ground * free.by_bearing,
+        by_height: over_fall,
+        ..free
+    }
 }
 
 /// r̃ = Ĉᵀ s̃ - r̂×ψ, ṽ = Ĉᵀ w̃ - v̂×ψ.
@@ -127,9 +180,15 @@ pub(super) fn site_second_moment(state: &DescentState, covariance: &SMatrix<f64,
             if row < 3 { (POSITION, &state.lander_in_site_m) } else { (VELOCITY, &state.lander_velocity_in_site_m_s) };
         second_derivative(row % 3, start, vector) * p
     });
-    SMatrix::from_fn(|i, j| {
-        if i < 6 && j < 6 { 0.5 * (ap[i] * ap[j]).trace() + 0.25 * ap[i].trace() * ap[j].trace() } else { 0.0 }
-    })
+    let trace_of_product = |a: &SMatrix<f64, 9, 9>, b: &SMatrix<f64, 9, 9>| a.dot(&b.transpose());
+    let mut moment = SMatrix::<f64, 9, 9>::zeros();
+    for i in 0..6 {
+        for j in 0..=i {
+            moment[(i, j)] = 0.5 * trace_of_product(&ap[i], &ap[j]) + 0.25 * ap[i].trace() * ap[j].trace();
+            moment[(j, i)] = moment[(i, j)];
+        }
+    }
+    moment
 }
 
 /// A_i of component i of ψ×e + ½ ψ×(ψ×r̂), where e starts at `start`.

@@ -1,10 +1,10 @@
 //! What a descent brings, from the image front end and the sensors.
 
-use super::{CameraMount, LandingError};
+use super::{CameraMount, ImageRotation, LandingError};
 use crate::dataset::{ImuNoise, ImuSample, InitialState};
 use crate::geometry::Camera;
 use crate::vision::TrackObservation;
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector2, Vector3};
 
 /// Everything that [`navigate`](super::navigate) may see.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +23,25 @@ pub struct LandingInput {
     pub frame_times_ns: Vec<i64>,
     /// What the lander believes of itself at or before the first frame.
     pub initial: InitialState,
+    /// Sightings of points whose place a map tells, in order of time; none without a map.
+    pub known: Vec<KnownSighting>,
+    /// Rotations between images, by the time of the second, in order of time; none if the images tell none.
+    pub rotations: Vec<ImageRotation>,
+}
+
+/// A point of known place, seen in an image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KnownSighting {
+    /// Time of the image, ns.
+    pub t_ns: i64,
+    /// Pixel (u, v).
+    pub pixel_px: Vector2<f64>,
+    /// 1σ of each pixel coordinate, px.
+    pub sigma_px: f64,
+    /// The point in the site frame, m.
+    pub point_in_site_m: Vector3<f64>,
+    /// 1σ of each of its coordinates, m.
+    pub sigma_point_m: f64,
 }
 
 impl LandingInput {
@@ -75,8 +94,16 @@ impl LandingInput {
     }
 
     fn check_observations(&self) -> Result<(), LandingError> {
-        if let Some(pair) = self.observations.windows(2).find(|pair| pair[1].t_ns < pair[0].t_ns) {
-            return Err(LandingError::Order { what: "observations", t_ns: pair[1].t_ns });
+        increasing_or_equal("observations", self.observations.iter().map(|o| o.t_ns))?;
+        increasing_or_equal("sightings of known points", self.known.iter().map(|k| k.t_ns))?;
+        increasing("rotations between images", self.rotations.iter().map(|r| r.to_t_ns))?;
+        let is_fine = |k: &&KnownSighting| {
+            let numbers = k.pixel_px.norm() + k.point_in_site_m.norm() + k.sigma_px + k.sigma_point_m;
+            numbers.is_finite() && k.sigma_px > 0.0 && k.sigma_point_m >= 0.0
+        };
+        if let Some(k) = self.known.iter().find(|k| !is_fine(k)) {
+            let cure = "places must be finite and sigmas positive";
+            return Err(LandingError::Value { what: "a sighting of a known point", t_ns: k.t_ns, cure });
         }
         for o in &self.observations {
             if self.frame_times_ns.binary_search(&o.t_ns).is_err() {
@@ -95,6 +122,17 @@ fn increasing(what: &'static str, times_ns: impl Iterator<Item = i64>) -> Result
     let mut last_ns = i64::MIN;
     for t_ns in times_ns {
         if t_ns <= last_ns {
+            return Err(LandingError::Order { what, t_ns });
+        }
+        last_ns = t_ns;
+    }
+    Ok(())
+}
+
+fn increasing_or_equal(what: &'static str, times_ns: impl Iterator<Item = i64>) -> Result<(), LandingError> {
+    let mut last_ns = i64::MIN;
+    for t_ns in times_ns {
+        if t_ns < last_ns {
             return Err(LandingError::Order { what, t_ns });
         }
         last_ns = t_ns;

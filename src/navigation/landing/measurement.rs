@@ -1,9 +1,18 @@
 //! Bearings of landmarks, from pixels.
 
-use super::DescentState;
+use super::{DescentState, KnownSighting};
 use crate::geometry::{Camera, so3};
 use crate::vision::TrackObservation;
 use nalgebra::{Isometry3, Matrix2, Unit, Vector3};
+
+/// A surface point whose place a map tells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KnownPoint {
+    /// Its place in the site frame, m.
+    pub position_in_site_m: Vector3<f64>,
+    /// 1σ of each coordinate, m.
+    pub sigma_m: f64,
+}
 
 /// Direction of a tracked surface point, seen from the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,12 +23,15 @@ pub struct BearingObservation {
     pub direction_in_lander: Unit<Vector3<f64>>,
     /// Covariance (rad²) across the direction, in the basis [`so3::tangent_basis`] of it.
     pub covariance_rad2: Matrix2<f64>,
+    /// The point's place, where it is known; the track is then of no meaning.
+    pub known: Option<KnownPoint>,
 }
 
 impl BearingObservation {
     /// Bearing with the same 1σ (rad) in every direction across it.
     pub fn from_sigma(track_id: u64, direction_in_lander: Unit<Vector3<f64>>, sigma_rad: f64) -> Self {
-        BearingObservation { track_id, direction_in_lander, covariance_rad2: Matrix2::identity() * sigma_rad.powi(2) }
+        let covariance_rad2 = Matrix2::identity() * sigma_rad.powi(2);
+        BearingObservation { track_id, direction_in_lander, covariance_rad2, known: None }
     }
 
     /// 1σ averaged over the directions across the bearing, rad.
@@ -54,7 +66,17 @@ impl CameraMount {
         let angle_by_pixel = (pixel_by_point * across_in_camera).try_inverse()?;
         let sigma_px = observation.sigma_px.max(sigma_floor_px);
         let covariance_rad2 = angle_by_pixel * angle_by_pixel.transpose() * sigma_px.powi(2);
-        Some(BearingObservation { track_id: observation.track_id, direction_in_lander, covariance_rad2 })
+        Some(BearingObservation { track_id: observation.track_id, direction_in_lander, covariance_rad2, known: None })
+    }
+}
+
+impl CameraMount {
+    /// Bearing of a sighting of a known point, as [`CameraMount::bearing`].
+    pub fn known_bearing(&self, sighting: &KnownSighting, sigma_floor_px: f64) -> Option<BearingObservation> {
+        let KnownSighting { t_ns, pixel_px, sigma_px, .. } = *sighting;
+        let observation = TrackObservation { t_ns, track_id: u64::MAX, pixel_px, sigma_px, response: 0.0 };
+        let point = KnownPoint { position_in_site_m: sighting.point_in_site_m, sigma_m: sighting.sigma_point_m };
+        Some(BearingObservation { known: Some(point), ..self.bearing(&observation, sigma_floor_px)? })
     }
 }
 

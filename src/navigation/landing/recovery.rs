@@ -1,7 +1,7 @@
 //! What to do when the filter and the known landmark contradict each other for long.
 
 use super::correct::Outcome;
-use super::state::{ATTITUDE, LANDMARKS};
+use super::state::{ATTITUDE, BIASES};
 use super::{DescentEstimate, FilterKind};
 use crate::vision::TrackObservation;
 
@@ -22,7 +22,7 @@ pub struct Contradiction {
 impl Contradiction {
     /// The count after an image.
     pub fn after(self, outcomes: &[Outcome]) -> Self {
-        match outcomes.iter().find(|o| o.track_id == TrackObservation::DESIGNATED) {
+        match outcomes.iter().find(|o| o.track_id == TrackObservation::DESIGNATED && !o.known) {
             Some(o) if !o.used => Contradiction {
                 images: self.images + 1,
                 normalized_innovation_squared: o.normalized_innovation_squared,
@@ -40,7 +40,7 @@ impl Contradiction {
             return estimate;
         }
         let factor = (0.5 * self.normalized_innovation_squared).clamp(1.0, LARGEST_INFLATION).sqrt();
-        let kept = if kind == FilterKind::Hybrid { ATTITUDE + 2..LANDMARKS } else { ATTITUDE..LANDMARKS };
+        let kept = if kind == FilterKind::Hybrid { ATTITUDE + 2..BIASES } else { ATTITUDE..BIASES };
         for k in (0..estimate.covariance.nrows()).filter(|k| !kept.contains(k)) {
             estimate.covariance.row_mut(k).scale_mut(factor);
             estimate.covariance.column_mut(k).scale_mut(factor);

@@ -1,5 +1,6 @@
 //! What the navigation of a descent gives back.
 
+use super::{ImuBiases, RotationCheck};
 use nalgebra::{Isometry3, SMatrix, Vector3};
 
 /// The estimate at one time.
@@ -25,6 +26,12 @@ pub struct LandingEpoch {
     pub gated: usize,
     /// Whether the designated point was used.
     pub known_seen: bool,
+    /// Points of a map that were used.
+    pub known_points: usize,
+    /// Gyroscope against images, where the images told a rotation.
+    pub rotation_check: Option<RotationCheck>,
+    /// Biases of the IMU with their 1σ (gyroscope first), where they are estimated.
+    pub biases: Option<(ImuBiases, [f64; 6])>,
     /// The first of the unknown landmarks being followed after this image.
     pub unknown_track: Option<u64>,
     /// All unknown landmarks being followed after this image.
@@ -38,13 +45,24 @@ impl LandingEpoch {
     }
 }
 
+/// A time within an interval between two images for which the IMU has no samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImuGap {
+    /// The interval, ns.
+    pub interval_ns: (i64, i64),
+    /// How long samples are missing in it, s.
+    pub bridged_s: f64,
+}
+
 /// A navigated descent.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct LandingResult {
     /// One epoch a frame, then one a second on the IMU alone to the end of its record.
     pub epochs: Vec<LandingEpoch>,
     /// Stretches (first and last time in ns) flown on the IMU alone: images missing, gated or too low.
     pub coasted: Vec<(i64, i64)>,
+    /// Times that the IMU was silent; its motion was held through them.
+    pub imu_gaps: Vec<ImuGap>,
     /// Bearings of landmarks used.
     pub used: usize,
     /// Bearings of landmarks gated.

@@ -1,13 +1,17 @@
 //! One image of the descent.
 
-use super::correct::{CorrectionModel, Outcome, correct};
+use super::correct::{CorrectionModel, Outcomes, correct};
 use super::designated::with_designated_errors;
 use super::imu::ImuIncrement;
+use super::initialize::initial_estimate;
 use super::measurement::{BearingObservation, CameraMount};
 use super::predict::predict;
 use super::recovery::Contradiction;
-use super::select::{Selection, with_chosen, without_lost};
+use super::rotation::{ImageRotation, ImageRotationUse, RotationCheck};
+use super::select::{Selection, with_chosen, with_triangulated, without_lost};
+use super::state::ImuBiases;
 use super::{DescentEstimate, LandingConfig};
+use crate::dataset::InitialState;
 use std::collections::BTreeSet;
 
 /// What is carried from image to image.
@@ -25,22 +29,44 @@ pub struct Navigator {
     pub images: u64,
 }
 
+impl Navigator {
+    /// Before the first image.
+    pub fn new(initial: &InitialState, config: &LandingConfig) -> Self {
+        Navigator {
+            estimate: initial_estimate(initial, config),
+            corrected: false,
+            contradiction: Contradiction::default(),
+            spent_tracks: BTreeSet::new(),
+            images: 0,
+        }
+    }
+
+    /// The biases that the next increment should be freed of.
+    pub fn biases(&self) -> ImuBiases {
+        self.estimate.state.biases.unwrap_or_default()
+    }
+}
+
 /// What one image brings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameInput {
     /// IMU motion since the last image.
     pub increment: ImuIncrement,
-    /// Bearings of every track seen.
+    /// Bearings of every track seen, and of known points.
     pub bearings: Vec<BearingObservation>,
+    /// The rotation since the last image as the images tell it, where they do.
+    pub rotation: Option<ImageRotation>,
 }
 
 /// What became of one image.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StepReport {
     /// The landmarks' bearings, used and gated.
-    pub outcomes: Vec<Outcome>,
+    pub outcomes: Outcomes,
     /// Joint normalised innovation squared of those used.
     pub normalized_innovation_squared: Option<f64>,
+    /// Gyroscope against images.
+    pub rotation_check: Option<RotationCheck>,
 }
 
 impl StepReport {
@@ -54,28 +80,56 @@ impl StepReport {
 /// landmark and of the unknown ones ((11) to (18)), drop the landmarks that have served (fig. 3), choose new ones ((26))
 /// and place them on the ground. `None` if the covariance is no longer positive definite.
 pub fn step(
-    before: &Navigator,
+    navigator: Navigator,
     frame: &FrameInput,
     mount: &CameraMount,
     config: &LandingConfig,
 ) -> Option<(Navigator, StepReport)> {
-    let predicted = predict(&before.estimate, &frame.increment, &config.gravity_in_site_m_s2(), config.filter);
+    let Navigator { estimate, corrected, contradiction, spent_tracks, images } = navigator;
+    let rotation_check = checked(frame, config);
+    let (estimate, increment) = with_image_rotation(estimate, frame, config);
+    let predicted = predict(estimate, &increment, &config.planet(), config.filter);
     let bearings = usable(&predicted, &frame.bearings, config);
-    let prior =
-        with_designated_errors(before.contradiction.resolved(predicted, config.filter), bearings, mount, config);
-    let corrected = correct(&prior, bearings, &correction_model(before, mount, config))?;
+    let prior = with_designated_errors(contradiction.resolved(predicted, config.filter), bearings, mount, config);
+    let result = correct(prior, bearings, &correction_model(corrected, mount, config))?;
     let report = StepReport {
-        outcomes: corrected.outcomes,
-        normalized_innovation_squared: corrected.normalized_innovation_squared,
+        outcomes: result.outcomes,
+        normalized_innovation_squared: result.normalized_innovation_squared,
+        rotation_check,
     };
-    let mut after = Navigator { estimate: corrected.estimate, images: before.images + 1, ..before.clone() };
-    after.corrected |= report.used() > 0;
-    after.contradiction = before.contradiction.after(&report.outcomes);
+    let mut after = Navigator {
+        estimate: result.estimate,
+        corrected: corrected || report.used() > 0,
+        contradiction: contradiction.after(&report.outcomes),
+        spent_tracks,
+        images: images + 1,
+    };
     if after.corrected && !bearings.is_empty() {
-        after = without_lost(&after, bearings);
-        after = with_chosen(&after, bearings, &Selection::new(&after, frame, mount, config));
+        without_lost(&mut after, bearings);
+        with_triangulated(&mut after, bearings, mount, config);
+        with_chosen(&mut after, bearings, &Selection { increment: &increment, mount, config });
     }
     Some((after, report))
+}
+
+fn checked(frame: &FrameInput, config: &LandingConfig) -> Option<RotationCheck> {
+    let rotation = frame.rotation.filter(|_| config.image_rotation != ImageRotationUse::Ignore)?;
+    rotation.check(&frame.increment)
+}
+
+/// Estimate and increment corrected by the images' rotation, where it is a measurement.
+fn with_image_rotation(
+    estimate: DescentEstimate,
+    frame: &FrameInput,
+    config: &LandingConfig,
+) -> (DescentEstimate, ImuIncrement) {
+    match frame.rotation.filter(|_| config.image_rotation == ImageRotationUse::Measure) {
+        None => (estimate, frame.increment.clone()),
+        Some(rotation) if estimate.state.biases.is_some() => rotation
+            .with_biases(&estimate, &frame.increment, config.filter)
+            .unwrap_or_else(|| (estimate, frame.increment.clone())),
+        Some(rotation) => (estimate, rotation.fused(&frame.increment).unwrap_or_else(|| frame.increment.clone())),
+    }
 }
 
 /// The bearings if the lander is high enough for images, by its estimate; none otherwise.
@@ -87,11 +141,12 @@ fn usable<'a>(
     if estimate.state.lander_in_site_m.z >= config.minimum_image_height_m { bearings } else { &[] }
 }
 
-fn correction_model(navigator: &Navigator, mount: &CameraMount, config: &LandingConfig) -> CorrectionModel {
+fn correction_model(corrected: bool, mount: &CameraMount, config: &LandingConfig) -> CorrectionModel {
     CorrectionModel {
         kind: config.filter,
         gate: config.gate(),
-        iterations: if navigator.corrected { 1 } else { config.first_iterations },
+        iterations: if corrected { 1 } else { config.first_iterations },
         camera_in_lander_m: mount.camera_in_lander_m(),
+        second_order: config.second_order_noise,
     }
 }
