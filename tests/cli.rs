@@ -71,9 +71,20 @@ fn wrong_usage_exits_with_2() {
 
 #[test]
 fn every_subcommand_explains_itself() {
-    for command in
-        ["doctor", "demo", "render", "track", "land", "tumble", "evaluate", "report", "bench", "export", "reference"]
-    {
+    for command in [
+        "doctor",
+        "demo",
+        "render",
+        "track",
+        "land",
+        "map",
+        "tumble",
+        "evaluate",
+        "report",
+        "bench",
+        "export",
+        "reference",
+    ] {
         let output = opnav().args([command, "--help"]).assert().success().get_output().stdout.clone();
         assert!(String::from_utf8_lossy(&output).contains("Usage:"), "{command}");
     }

@@ -1,6 +1,7 @@
 //! Tests of the room `dataset`.
 
 mod folders;
+mod ground_map;
 mod pictures;
 
 use image::{DynamicImage, GrayImage, ImageBuffer, Luma};

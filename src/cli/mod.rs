@@ -7,6 +7,7 @@ mod doctor;
 mod evaluate;
 mod export;
 mod land;
+mod map;
 mod progress;
 mod reference;
 mod render;

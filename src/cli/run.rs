@@ -1,7 +1,7 @@
 //! The command line as a whole: which subcommand, how errors end.
 
 use super::progress::Terminal;
-use super::{bench, demo, doctor, evaluate, export, land, reference, render, report, track, tumble};
+use super::{bench, demo, doctor, evaluate, export, land, map, reference, render, report, track, tumble};
 use clap::{Parser, Subcommand};
 use opnav::pipeline::PipelineError;
 use std::process::ExitCode;
@@ -24,6 +24,7 @@ enum Command {
     Render(render::Arguments),
     Track(track::Arguments),
     Land(land::Arguments),
+    Map(map::Arguments),
     Tumble(tumble::Arguments),
     Evaluate(evaluate::Arguments),
     Report(report::Arguments),
@@ -52,6 +53,7 @@ fn dispatch(command: Command, terminal: &Terminal) -> Result<ExitCode, PipelineE
         Command::Render(arguments) => render::run(&arguments, terminal)?,
         Command::Track(arguments) => track::run(&arguments, terminal)?,
         Command::Land(arguments) => land::run(&arguments, terminal)?,
+        Command::Map(arguments) => map::run(&arguments, terminal)?,
         Command::Tumble(arguments) => tumble::run(&arguments, terminal)?,
         Command::Evaluate(arguments) => evaluate::run(&arguments, terminal)?,
         Command::Report(arguments) => report::run(&arguments, terminal)?,

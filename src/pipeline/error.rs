@@ -64,6 +64,15 @@ pub enum PipelineError {
         /// This version and adapter.
         maker: String,
     },
+    /// Only a descent has a landing area to map.
+    #[error("{} has no table [descent], and a map is made of a descent's landing area: name another scenario", path.display())]
+    NoDescent {
+        /// The scenario file.
+        path: PathBuf,
+    },
+    /// Levels of a map in a wrong order.
+    #[error("the levels of a map go from fine to coarse, and there is at least one: order them by metres a pixel")]
+    LevelOrder,
     /// A range of frames that does not fit.
     #[error("frames {from}..{to} do not lie within the {available} frames there are")]
     FrameRange {

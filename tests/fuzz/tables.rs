@@ -100,6 +100,22 @@ fn observations() -> Target {
     })
 }
 
+const MAP: &str = "format = 1\n[[levels]]\npicture = \"o.png\"\nheights = \"h.tiff\"\nmetres_per_px = 0.5\nfirst_x_m = -1\n\
+                   first_y_m = 1.5\nsigma_horizontal_m = 0.1\nsigma_vertical_m = 0.0\n";
+
+fn ground_map() -> Target {
+    let read = |root: &Path| {
+        let map = read_ground_map(root).map_err(text)?;
+        assert!(map.levels.iter().all(|l| l.metres_per_px > 0.0 && l.size_px() == (3, 2)) && !map.levels.is_empty());
+        Ok(())
+    };
+    let mut picture = std::io::Cursor::new(Vec::new());
+    image::GrayImage::new(3, 2).write_to(&mut picture, image::ImageFormat::Png).expect("a picture");
+    let heights = encode_scalar_tiff(Path::new("h.tiff"), (3, 2), &[1.0; 6]).expect("heights");
+    let beside = vec![("o.png", picture.into_inner()), ("h.tiff", heights)];
+    Target { beside, ..table("ground_map", "map.toml", &[MAP], read) }
+}
+
 fuzzed! {
     timed_tables: timed();
     trajectories: trajectory();
@@ -112,4 +128,5 @@ fuzzed! {
     asteroid_tensors: asteroid_inertia();
     landmark_places: landmarks();
     landmark_sightings: observations();
+    ground_maps: ground_map();
 }
