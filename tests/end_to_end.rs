@@ -24,6 +24,7 @@ fn dataset(scenario: &str, seed: u64, folder: &Path) -> PathBuf {
 
 fn navigate_descent(images: &Path, out: &Path) {
     let request = LandRequest {
+        map: None,
         folder: images.into(),
         out: out.into(),
         config: LandingConfig::from_pixels(),

@@ -14,6 +14,8 @@ mod fuzz;
 mod geometry;
 mod landing;
 mod landmark;
+#[cfg(all(feature = "render", feature = "vision"))]
+mod map_matching;
 mod observability;
 #[cfg(feature = "render")]
 mod render;

@@ -70,6 +70,7 @@ fn descent() -> Vec<Bar> {
         bars.extend(rotation_bars(&format!("reference descent from frame {first}"), &metrics));
     }
     let request = LandRequest {
+        map: None,
         folder: images.clone(),
         out: folder.path().join("landing"),
         config: LandingConfig::from_pixels(),

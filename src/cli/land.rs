@@ -13,6 +13,9 @@ pub struct Arguments {
     /// Folder of the result.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// Folder of a map, as `opnav map` makes it: known points in every picture, which make yaw observable.
+    #[arg(long, value_name = "DIR")]
+    map: Option<PathBuf>,
     /// How the unknown landmark is chosen.
     #[arg(long, value_enum, default_value = "depth-error")]
     selector: SelectorName,
@@ -87,6 +90,7 @@ pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineErr
     let request = LandRequest {
         folder: arguments.folder.clone(),
         out: arguments.out.clone(),
+        map: arguments.map.clone(),
         config,
         front_end: FrontEndConfig::default(),
     };

@@ -75,6 +75,7 @@ type Evaluated = (PathBuf, Metrics);
 
 fn demonstrate_landing(out: &Path, images: &Path, progress: &dyn Progress) -> Result<Evaluated, PipelineError> {
     let request = LandRequest {
+        map: None,
         folder: images.into(),
         out: out.join("landing"),
         config: LandingConfig::from_pixels(),

@@ -1,10 +1,11 @@
 //! A descent: pictures and IMU in, the lander's state out.
 
 use super::front_end_files::{write_front_end, write_pictures};
+use super::land_map::known_sightings;
 use super::track::run_front_end;
 use super::{PipelineError, Progress, Summary};
 use crate::dataset::{
-    CameraSource, ImageSequence, StampedPose, read_designated, read_imu, read_initial_state, write_tum,
+    CameraSource, ImageSequence, StampedPose, read_designated, read_ground_map, read_imu, read_initial_state, write_tum,
 };
 use crate::navigation::landing::{
     ImageRotation, ImuBiases, ImuRecord, LandingConfig, LandingEpoch, LandingInput, LandingResult, navigate,
@@ -22,6 +23,8 @@ pub struct LandRequest {
     pub folder: PathBuf,
     /// The result's folder.
     pub out: PathBuf,
+    /// The folder of a map that gives known points, if any.
+    pub map: Option<PathBuf>,
     /// Filter settings.
     pub config: LandingConfig,
     /// Front-end settings.
@@ -38,8 +41,10 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
     let designated = read_designated(&sequence.root)?;
     let initial = read_initial_state(&sequence.root)?;
     let front_end_config = with_gyro_prior(&request.front_end);
+    let map = request.map.as_deref().map(read_ground_map).transpose()?;
     let options = serde_json::json!({
         "folder": request.folder.display().to_string(),
+        "map": request.map.as_ref().map(|folder| folder.display().to_string()),
         "filter": request.config,
         "front_end": front_end_config,
     });
@@ -58,7 +63,7 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
         designated: Some(designated),
     };
     let front_end = run_front_end(&sequence, &front_end_config, &inputs, (progress, &mut summary))?;
-    let input = LandingInput {
+    let mut input = LandingInput {
         imu: imu.clone(),
         imu_noise,
         camera: sequence.sensor.camera,
@@ -69,6 +74,9 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
         known: Vec::new(),
         rotations: image_rotations(&front_end, &lander_from_camera),
     };
+    if let Some(map) = &map {
+        input.known = known_sightings(&sequence, &input, (map, &request.config), (progress, &mut summary))?;
+    }
     let start = Instant::now();
     progress.begin("navigating", input.frame_times_ns.len());
     let config = with_designated_errors(&request.config, &front_end);

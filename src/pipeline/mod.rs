@@ -8,6 +8,7 @@ mod evaluate;
 mod export;
 mod front_end_files;
 mod land;
+mod land_map;
 mod map;
 mod page;
 mod progress;

@@ -87,6 +87,8 @@ mod klt;
 #[cfg(feature = "vision")]
 mod local_affine;
 #[cfg(feature = "vision")]
+mod map;
+#[cfg(feature = "vision")]
 mod matching;
 #[cfg(feature = "vision")]
 mod opencv_bridge;
@@ -143,6 +145,7 @@ pub use {
     front_end::{DesignatedStep, FrameReport, FrontEnd, RotationPrediction, TrackInputs},
     harris::{Feature, detect_harris},
     klt::{KltPoint, track_patches},
+    map::{MapFix, MapMatchConfig, MapMatcher, MapSighting, MapStatus, PredictedCamera},
     matching::{Described, IndexMatch, match_features, match_features_guided},
     picture_noise::noise_sigma_dn,
     relative_rotation::{PairHints, PairSolution, PixelMatches, relative_rotation},

@@ -1,0 +1,91 @@
+//! Known points for a descent: each picture matched with a map from where the filter predicts the camera.
+
+use super::{PipelineError, Progress, Summary};
+use crate::dataset::{GroundMap, ImageSequence};
+use crate::navigation::landing::{
+    DescentEstimate, FrameInput, ImuRecord, KnownSighting, LandingConfig, LandingError, LandingInput, Navigator,
+    predict, step,
+};
+use crate::vision::{MapFix, MapMatchConfig, MapMatcher, MapSighting, MapStatus, PredictedCamera};
+use nalgebra::Isometry3;
+use std::time::Instant;
+
+/// Sightings of the map's points in every picture of a descent. A filter of its own, by nothing but the IMU and the map,
+/// predicts where the camera is; what each picture adds makes the prediction of the next one better.
+///
+/// # Errors
+/// Settings out of range, IMU samples that do not fit the pictures, or a picture that cannot be read.
+pub(super) fn known_sightings(
+    sequence: &ImageSequence,
+    input: &LandingInput,
+    (map, config): (&GroundMap, &LandingConfig),
+    (progress, summary): (&dyn Progress, &mut Summary),
+) -> Result<Vec<KnownSighting>, PipelineError> {
+    let start = Instant::now();
+    let matcher = MapMatcher::new(map, &MapMatchConfig::default())?;
+    let record = ImuRecord { samples: &input.imu, noise: &input.imu_noise };
+    let mount = input.mount();
+    let mut navigator = Navigator::new(&input.initial, config);
+    let (mut last_ns, mut known) = (input.initial.t_ns, Vec::new());
+    progress.begin("matching the map", input.frame_times_ns.len());
+    for (index, t_ns) in input.frame_times_ns.iter().copied().enumerate() {
+        let increment = record.between(last_ns, t_ns, &navigator.biases())?;
+        let predicted = predict(navigator.estimate.clone(), &increment, &config.planet(), config.filter);
+        let mut bearings = Vec::new();
+        if let Some(frame) = sequence.frames.iter().find(|f| f.t_ns == t_ns)
+            && predicted.state.lander_in_site_m.z >= config.minimum_image_height_m
+            && let Ok(picture) = sequence.load(frame)
+        {
+            let camera = predicted_camera(&predicted, &mount.lander_from_camera, config);
+            let fix = matcher.sightings(&picture, &mount.camera, &camera)?;
+            count(&fix, summary);
+            let sightings: Vec<KnownSighting> = fix.sightings.iter().map(|s| known_sighting(t_ns, s)).collect();
+            bearings.extend(sightings.iter().filter_map(|s| mount.known_bearing(s, config.sigma_floor_px)));
+            known.extend(sightings);
+        }
+        let frame = FrameInput { increment, bearings, rotation: None };
+        let stepped = step(navigator, &frame, &mount, config).ok_or(LandingError::BrokeDown { t_ns })?;
+        (navigator, last_ns) = (stepped.0, t_ns);
+        progress.advance_to(index + 1);
+    }
+    progress.end();
+    summary.counts.insert("map_sightings".into(), known.len());
+    summary.timing_ms.insert("map".into(), start.elapsed().as_secs_f64() * 1e3);
+    Ok(known)
+}
+
+/// Where the camera is by an estimate, with the mean 1σ of its axes.
+fn predicted_camera(
+    estimate: &DescentEstimate,
+    lander_from_camera: &Isometry3<f64>,
+    config: &LandingConfig,
+) -> PredictedCamera {
+    let covariance = config.filter.site_covariance(estimate);
+    let sigma = |first: usize| (covariance.diagonal().rows(first, 3).sum() / 3.0).max(0.0).sqrt();
+    PredictedCamera {
+        camera_from_site: (estimate.state.site_from_lander() * lander_from_camera).inverse(),
+        sigma_position_m: sigma(0),
+        sigma_attitude_rad: sigma(6),
+    }
+}
+
+fn known_sighting(t_ns: i64, sighting: &MapSighting) -> KnownSighting {
+    let variance_m2 = (2.0 * sighting.sigma_horizontal_m.powi(2) + sighting.sigma_vertical_m.powi(2)) / 3.0;
+    KnownSighting {
+        t_ns,
+        pixel_px: sighting.pixel_px,
+        sigma_px: sighting.sigma_px(),
+        point_in_site_m: sighting.point_in_site_m,
+        sigma_point_m: variance_m2.sqrt(),
+    }
+}
+
+fn count(fix: &MapFix, summary: &mut Summary) {
+    let name = match fix.status {
+        MapStatus::Tracked => "map_frames_tracked",
+        MapStatus::Acquired => "map_frames_acquired",
+        MapStatus::OffMap => "map_frames_off_map",
+        MapStatus::Lost => "map_frames_lost",
+    };
+    *summary.counts.entry(name.into()).or_default() += 1;
+}
