@@ -7,9 +7,11 @@ mod features;
 mod files;
 mod gaps;
 mod landing_camera;
+mod likelihood;
 #[cfg(feature = "render")]
 mod rendered;
 mod rotation;
+mod rotation_table;
 mod sequences;
 pub mod texture;
 mod tumbling;

@@ -1,11 +1,11 @@
 //! Starts of the fixed-centre model: many rotations are tried, and those that put the surface behind the camera or
 //! beyond the centre are refused.
 
+use super::cheirality::Cheirality;
 use super::fixed_center::{CenterProblem, CenteredPair};
 use super::pair_fit::{Loss, cost, descend, fit};
 use super::pair_models::AboutCenter;
 use super::plausible::plausible;
-use super::relative_rotation::Cheirality;
 use super::sight::{Sight, sights};
 use super::{PairStatus, RotationConfig, usac};
 use crate::geometry::so3;

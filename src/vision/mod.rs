@@ -59,6 +59,10 @@ mod center_start;
 #[cfg(feature = "vision")]
 mod chain;
 #[cfg(feature = "vision")]
+mod cheirality;
+#[cfg(feature = "vision")]
+mod clusters;
+#[cfg(feature = "vision")]
 mod config;
 #[cfg(feature = "vision")]
 mod corner_peak;
@@ -79,6 +83,12 @@ mod frame_features;
 #[cfg(feature = "vision")]
 mod front_end;
 #[cfg(feature = "vision")]
+mod ground_fit;
+#[cfg(feature = "vision")]
+mod ground_model;
+#[cfg(feature = "vision")]
+mod ground_start;
+#[cfg(feature = "vision")]
 mod harris;
 #[cfg(feature = "vision")]
 mod keyframes;
@@ -90,6 +100,8 @@ mod local_affine;
 mod map;
 #[cfg(feature = "vision")]
 mod matching;
+#[cfg(feature = "vision")]
+mod motion;
 #[cfg(feature = "vision")]
 mod opencv_bridge;
 mod overlay;
@@ -105,6 +117,8 @@ mod patch;
 mod picture_noise;
 #[cfg(feature = "vision")]
 mod plausible;
+#[cfg(feature = "vision")]
+mod pure_turn;
 #[cfg(feature = "vision")]
 mod relative_rotation;
 mod result;

@@ -1,5 +1,6 @@
 //! Robust least squares over the matches of a picture pair, for any model that is a 3×3 matrix with derivatives.
 
+use super::clusters::{cells, covariance_of_rotation};
 use super::sight::Sight;
 use nalgebra::{Matrix3, SMatrix, SVector, Vector2};
 
@@ -285,4 +286,16 @@ fn finish<const N: usize, M: PairModel<N>>(model: M, sights: &[Sight], scale: f6
     let variance = if freedom > 0.0 { inside / freedom } else { f64::INFINITY };
     let covariance = information.cholesky().filter(|_| variance.is_finite()).map(|c| c.inverse() * variance.max(9e-4));
     PairFit { model, covariance, inliers, scale: variance.sqrt().max(0.03) }
+}
+
+/// Covariance (rad²) of a fit's rotation (its first three parameters), neighbouring matches erring together.
+pub(super) fn rotation_covariance<const N: usize, M: PairModel<N>>(
+    fit: &PairFit<N, M>,
+    sights: &[Sight],
+) -> Option<Matrix3<f64>> {
+    let agreeing: Vec<Sight> = sights.iter().zip(&fit.inliers).filter(|(_, i)| **i).map(|(s, _)| *s).collect();
+    let linear = fit.model.matrix();
+    let scores: Vec<SVector<f64, N>> =
+        agreeing.iter().map(|s| linearized(M::RELATION, &linear, s).2 / fit.scale.powi(2)).collect();
+    covariance_of_rotation(&fit.covariance?, &scores, &cells(&agreeing))
 }

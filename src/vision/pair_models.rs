@@ -43,23 +43,6 @@ impl PairModel<5> for General {
     }
 }
 
-/// [`General`] with its rotation held: direction of translation (2).
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Heading(pub(super) General);
-
-impl PairModel<2> for Heading {
-    const RELATION: Relation = Relation::Epipolar;
-
-    fn matrix(&self) -> (Matrix3<f64>, [Matrix3<f64>; 2]) {
-        let (matrix, all) = self.0.matrix();
-        (matrix, [all[3], all[4]])
-    }
-
-    fn moved(&self, step: &SVector<f64, 2>) -> Self {
-        Heading(General { direction: moved_direction(&self.0.direction, step), ..self.0 })
-    }
-}
-
 /// A plane, `H = R + m nᵀ`: rotation (3), translation over the plane's distance (3), the plane's normal in the first
 /// camera (2). Faugeras and Lustman 1988.
 #[derive(Debug, Clone, Copy)]

@@ -28,10 +28,14 @@ pub struct Scene {
 
 /// A descent over ground 1 away with uniform relief of ±`relief`/2, 3 % down and 1.5 % across, with a turn of 2°.
 pub fn descent(count: usize, relief: f64, seed: u64) -> Scene {
+    descent_by(count, relief, Vector3::new(0.012, 0.009, -0.03), seed)
+}
+
+/// A descent by any translation, in units of the height.
+pub fn descent_by(count: usize, relief: f64, translation: Vector3<f64>, seed: u64) -> Scene {
     let camera = camera();
     let mut random = random_stream(seed, "descent", 0);
     let rotation = so3::exp(&Vector3::new(0.02, -0.015, 0.025));
-    let translation = Vector3::new(0.012, 0.009, -0.03);
     let mut points = Vec::new();
     while points.len() < count {
         let pixel = Vector2::new(random.random_range(0.0..1023.0), random.random_range(0.0..1023.0));
@@ -116,7 +120,7 @@ pub fn angle_deg(a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>) -> f64 {
 
 pub fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// Median length of a normal error of this covariance, degrees.

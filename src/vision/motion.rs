@@ -1,0 +1,79 @@
+//! The motion that a fitted ground stands for, its relief left free where it shows.
+
+use super::RotationModel;
+use super::ground_fit::GroundFit;
+use super::pair_fit::{fit, rotation_covariance};
+use super::pair_models::General;
+use super::sight::Sight;
+use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
+
+/// Relief shows where the ratio of the variances of its parallax and of the noise, added up over the matches, exceeds this.
+const SHOWING: f64 = 500.0;
+
+/// A motion with its covariance.
+pub(super) struct Motion {
+    pub(super) rotation: UnitQuaternion<f64>,
+    pub(super) covariance_rad2: Matrix3<f64>,
+    pub(super) direction: Option<Unit<Vector3<f64>>>,
+    pub(super) normal: Unit<Vector3<f64>>,
+    pub(super) inliers: Vec<bool>,
+    pub(super) noise_scale: f64,
+    pub(super) model: RotationModel,
+}
+
+impl Motion {
+    /// The motion of a ground; `None` where the matches do not determine it.
+    ///
+    /// Relief is not white noise about a plane: hills are smooth. Where its parallax shows, each point's depth is better
+    /// left free, and what the plane would say is not missed. Where it does not show, depths left free would take noise
+    /// for parallax.
+    pub(super) fn of(fit: &GroundFit, sights: &[Sight]) -> Option<Motion> {
+        let direction = Unit::try_new(fit.ground.translation, 1e-12);
+        let free = direction.filter(|_| relief_over_noise(fit, sights) > SHOWING);
+        free.and_then(|direction| with_free_relief(fit, direction, sights)).or_else(|| {
+            Some(Motion {
+                rotation: fit.ground.rotation,
+                covariance_rad2: fit.rotation_covariance(sights)?,
+                direction,
+                normal: fit.ground.normal,
+                inliers: fit.inliers.clone(),
+                noise_scale: fit.scale(),
+                model: RotationModel::Homography,
+            })
+        })
+    }
+}
+
+/// Median ratio of the variances of the relief's parallax and of the noise, times the matches.
+fn relief_over_noise(fit: &GroundFit, sights: &[Sight]) -> f64 {
+    let (ground, homography) = (&fit.ground, fit.ground.homography());
+    let ratio = |s: &Sight| {
+        let seen = ground.predict(&homography, s)?;
+        let g = seen.by_relief;
+        Some(g.dot(&(seen.nominal.try_inverse()? * g)) * ground.relief_variance / ground.noise_variance)
+    };
+    let mut ratios: Vec<f64> = fit.agreeing(sights).iter().filter_map(ratio).collect();
+    let middle = ratios.len() / 2;
+    let count = ratios.len() as f64;
+    if ratios.is_empty() { 0.0 } else { *ratios.select_nth_unstable_by(middle, f64::total_cmp).1 * count }
+}
+
+/// The same motion refined on the epipolar constraint, over the matches that agree with the ground: what lies far along
+/// an epipolar line has great leverage on it, and the ground knows how far relief goes.
+fn with_free_relief(fit: &GroundFit, direction: Unit<Vector3<f64>>, sights: &[Sight]) -> Option<Motion> {
+    const WIDEST_SIGMA: f64 = 4.0;
+    let inside = fit.agreeing(sights);
+    let start = General { rotation: fit.ground.rotation, direction };
+    let refined = self::fit(start, &inside, WIDEST_SIGMA * fit.scale());
+    let mut flags = refined.inliers.iter();
+    let inliers = fit.inliers.iter().map(|i| *i && *flags.next().unwrap_or(&false)).collect();
+    Some(Motion {
+        rotation: refined.model.rotation,
+        covariance_rad2: rotation_covariance(&refined, &inside)?,
+        direction: Some(refined.model.direction),
+        normal: fit.ground.normal,
+        inliers,
+        noise_scale: refined.scale,
+        model: RotationModel::Essential,
+    })
+}
