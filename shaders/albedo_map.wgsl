@@ -16,10 +16,9 @@ const LEAST_ALBEDO: f32 = 1.0e-4; // the length of a normal must not vanish
 
 struct Painted {
     @builtin(position) clip: vec4<f32>,
-    @location(0) normal: vec3<f32>,
-    @location(1) depth: f32,
-    @location(2) paint: vec2<f32>,   // texture coordinates, or the vertex's albedo
-    @location(3) from_origin: vec3<f32>, // m
+    @location(0) sample: vec4<f32>,      // normal, and depth m
+    @location(1) paint: vec2<f32>,       // texture coordinates, or the vertex's albedo
+    @location(2) from_origin: vec3<f32>, // m
 }
 
 @vertex
@@ -29,7 +28,7 @@ fn painted_vertex(
     @location(2) paint: vec2<f32>,
 ) -> Painted {
     let plain = placed(position, normal);
-    return Painted(plain.clip, plain.normal, plain.depth, paint, position - albedo_map.origin.xyz);
+    return Painted(plain.clip, plain.sample, paint, position - albedo_map.origin.xyz);
 }
 
 @fragment
@@ -42,7 +41,7 @@ fn painted_fragment(in: Painted) -> @location(0) vec4<f32> {
         let east = atan2(d.y, d.x) - albedo_map.origin.w;
         albedo = picture_at(vec2(east / (2.0 * PI), 0.5 - atan2(d.z, length(d.xy)) / PI));
     }
-    return vec4(normalize(in.normal) * max(albedo, LEAST_ALBEDO), in.depth);
+    return vec4(normalize(in.sample.xyz) * max(albedo, LEAST_ALBEDO), in.sample.w);
 }
 
 // Value at a place, (0, 0) the upper left corner of the picture and (1, 1) the lower right one: bilinear where a sample is

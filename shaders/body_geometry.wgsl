@@ -12,17 +12,17 @@ struct Geometry {
 
 struct Varying {
     @builtin(position) clip: vec4<f32>,
-    @location(0) normal: vec3<f32>,
-    @location(1) depth: f32,
+    @location(0) sample: vec4<f32>, // normal, and depth m
+}
+
+fn relative_to_camera(position: vec3<f32>) -> vec3<f32> {
+    return (position - geometry.camera_high.xyz) - geometry.camera_low.xyz;
 }
 
 fn placed(position: vec3<f32>, normal: vec3<f32>) -> Varying {
-    let relative = (position - geometry.camera_high.xyz) - geometry.camera_low.xyz;
-    var out: Varying;
-    out.clip = geometry.clip_from_relative * vec4(relative, 1.0);
-    out.normal = normal;
-    out.depth = dot(geometry.forward.xyz, relative);
-    return out;
+    let relative = relative_to_camera(position);
+    let clip = geometry.clip_from_relative * vec4(relative, 1.0);
+    return Varying(clip, vec4(normal, dot(geometry.forward.xyz, relative)));
 }
 
 @vertex
@@ -30,7 +30,12 @@ fn vertex(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> V
     return placed(position, normal);
 }
 
+@vertex
+fn shadow_vertex(@location(0) position: vec3<f32>) -> @builtin(position) vec4<f32> {
+    return geometry.clip_from_relative * vec4(relative_to_camera(position), 1.0);
+}
+
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
-    return vec4(normalize(in.normal), in.depth);
+    return vec4(normalize(in.sample.xyz), in.sample.w);
 }

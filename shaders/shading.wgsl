@@ -27,6 +27,8 @@ override STRIDE: u32 = 1u;
 override TAPS: u32 = 1u;
 // Whether the surface is terrain: samples are gradients and albedos; or a body: samples are normals.
 override TERRAIN: bool = false;
+// Octaves of terrain that are evaluated without a loop, which then are all there are; 0 for a loop.
+override ONE_BY_ONE: u32 = 0u;
 
 struct Surface {
     relative: vec3<f32>, // m
@@ -95,25 +97,63 @@ fn shows_none_from(octave: u32, footprint: f32) -> bool {
     return octave >= OCTAVES || shading.octaves[min(octave, OCTAVES - 1u)].row_x.w <= footprint;
 }
 
-fn terrain_surface(sample: vec4<f32>, relative: vec3<f32>) -> Surface {
-    let footprint = footprint_m(relative, sample.w, vec3(0.0, 0.0, 1.0));
-    let mesh = mesh_at(relative);
-    var gradient = sample.xy;
-    var albedo = sample.z;
-    var k = first_below(CARRIED_SPACINGS * mesh.spacing);
+// What an octave adds to gradient and albedo of terrain.
+fn planar_detail(octave: Octave, relative: vec3<f32>, footprint: f32, mesh: Mesh) -> vec3<f32> {
+    let weight = visibility(octave.row_x.w, footprint) * (1.0 - carried_by(mesh, octave.row_x.w));
+    let noise = octave_planar(octave, relative);
+    return weight * vec3(octave.row_y.w * noise.relief_gradient.xy, octave.row_z.w * noise.albedo);
+}
+
+// The first octaves of the table, ONE_BY_ONE of them.
+fn octaves_one_by_one(relative: vec3<f32>, footprint: f32, mesh: Mesh) -> vec3<f32> {
+    var detail = vec3(0.0);
+    if ONE_BY_ONE > 0u {
+        detail += planar_detail(shading.octaves[0], relative, footprint, mesh);
+    }
+    if ONE_BY_ONE > 1u {
+        detail += planar_detail(shading.octaves[1], relative, footprint, mesh);
+    }
+    if ONE_BY_ONE > 2u {
+        detail += planar_detail(shading.octaves[2], relative, footprint, mesh);
+    }
+    if ONE_BY_ONE > 3u {
+        detail += planar_detail(shading.octaves[3], relative, footprint, mesh);
+    }
+    if ONE_BY_ONE > 4u {
+        detail += planar_detail(shading.octaves[4], relative, footprint, mesh);
+    }
+    if ONE_BY_ONE > 5u {
+        detail += planar_detail(shading.octaves[5], relative, footprint, mesh);
+    }
+    return detail;
+}
+
+// All octaves of the table that show.
+fn octaves_in_turn(relative: vec3<f32>, footprint: f32, mesh: Mesh) -> vec3<f32> {
+    var detail = vec3(0.0);
+    // Vertices that have not slid carry twice as many octaves.
+    var k = first_below(select(CARRIED_SPACINGS, SHADE_SPACINGS, mesh.morph == 0.0) * mesh.spacing);
     loop {
-        let octave = shading.octaves[k];
-        let weight = visibility(octave.row_x.w, footprint) * (1.0 - carried_by(mesh, octave.row_x.w));
-        let noise = octave_planar(octave, relative);
-        gradient += weight * octave.row_y.w * noise.relief_gradient.xy;
-        albedo += weight * octave.row_z.w * noise.albedo;
+        detail += planar_detail(shading.octaves[k], relative, footprint, mesh);
         k++;
         if shows_none_from(k, footprint) {
             break;
         }
     }
-    let clamped = clamp(shading.surface.x * (1.0 + albedo), 0.02, 0.95);
-    return Surface(relative, normalize(vec3(-sample.xy, 1.0)), normalize(vec3(-gradient, 1.0)), clamped);
+    return detail;
+}
+
+fn terrain_surface(sample: vec4<f32>, relative: vec3<f32>) -> Surface {
+    let footprint = footprint_m(relative, sample.w, vec3(0.0, 0.0, 1.0));
+    let mesh = mesh_at(relative);
+    var detail = sample.xyz;
+    if ONE_BY_ONE > 0u {
+        detail += octaves_one_by_one(relative, footprint, mesh);
+    } else {
+        detail += octaves_in_turn(relative, footprint, mesh);
+    }
+    let clamped = clamp(shading.surface.x * (1.0 + detail.z), 0.02, 0.95);
+    return Surface(relative, normalize(vec3(-sample.xy, 1.0)), normalize(vec3(-detail.xy, 1.0)), clamped);
 }
 
 fn body_surface(sample: vec4<f32>, relative: vec3<f32>, painted: f32) -> Surface {

@@ -25,15 +25,20 @@ fn drawn_normal(center_at: vec2<u32>, smooth_normal: vec3<f32>) -> vec3<f32> {
     return select(smooth_normal, normal, dot(normal, smooth_normal) > 0.3);
 }
 
-// Share of the Sun seen by a place on the drawn surface, 0 to 1. Texels are compared with the plane through the place, so
-// that a slope does not shadow itself (Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", GDC 2006). What the plane
-// misses of the mesh within a texel or two grows with the tangent of the incidence; blockers nearer than that throw no
-// shadow.
+// How far before a place blockers throw no shadow on it, m. Texels are compared with the plane through the place, so that a
+// slope does not shadow itself (Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", GDC 2006). What the plane misses of
+// the surface within a texel or two grows with the tangent of the incidence: a body has to be spared that. Of terrain the map
+// has only what faces away from the Sun, which never lies before lit ground, but itself has to be dark.
+fn blind_m(cosine: f32) -> f32 {
+    let tangent = sqrt(1.0 - cosine * cosine) / cosine;
+    let texels = select(0.5 + 0.5 * tangent, -0.25 - 0.75 * tangent, TERRAIN);
+    return texels * max(shading.shadow.x, shading.shadow.y);
+}
+
+// Share of the Sun seen by a place on the drawn surface, 0 to 1.
 fn sunlight(place: vec3<f32>, plane: vec3<f32>) -> f32 {
     let cosine = clamp(dot(plane, shading.sun.xyz), 0.1, 1.0);
-    let tangent = sqrt(1.0 - cosine * cosine) / cosine;
-    let blind_m = max(shading.shadow.x, shading.shadow.y) * (0.5 + 0.5 * tangent);
-    let at = (shading.shadow_from_relative * vec4(place + shading.sun.xyz * blind_m, 1.0)).xyz;
+    let at = (shading.shadow_from_relative * vec4(place + shading.sun.xyz * blind_m(cosine), 1.0)).xyz;
     if any(at.xy < vec2(0.0)) || any(at.xy > vec2(1.0)) {
         return 1.0;
     }

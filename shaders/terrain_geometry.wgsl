@@ -23,14 +23,18 @@ const SIDE: u32 = 33u;
 const COARSE_SIDE: u32 = 17u;
 const TILE_VERTICES: u32 = 1378u; // 33 * 33 fine ones, then 17 * 17 as the next coarser level has them
 
-struct Varying {
-    @builtin(position) clip: vec4<f32>,
-    @location(0) ground: vec3<f32>,
-    @location(1) depth: f32,
+// A vertex slid to where its level's range says.
+struct Placed {
+    relative: vec3<f32>, // reference axes, camera at the origin, m
+    ground: vec3<f32>,   // gradient x, gradient y, change of albedo
 }
 
-@vertex
-fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) instance: u32) -> Varying {
+struct Varying {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) sample: vec4<f32>, // ground, and depth m
+}
+
+fn placed(index: u32, instance: u32) -> Placed {
     let tile = tiles[instance];
     let at = vec2(index % SIDE, index / SIDE);
     let even = at & vec2(~1u);
@@ -49,14 +53,25 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) instance: 
     let place = fine_place * (1.0 - morph) + coarse_place * morph;
     let ground = fine * (1.0 - morph) + coarse * morph;
     let relative = (vec3(place, ground.x) - geometry.camera_high.xyz) - geometry.camera_low.xyz;
-    var out: Varying;
-    out.clip = geometry.clip_from_relative * vec4(relative, 1.0);
-    out.ground = ground.yzw;
-    out.depth = dot(geometry.forward.xyz, relative);
-    return out;
+    return Placed(relative, ground.yzw);
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) instance: u32) -> Varying {
+    let found = placed(index, instance);
+    let clip = geometry.clip_from_relative * vec4(found.relative, 1.0);
+    return Varying(clip, vec4(found.ground, dot(geometry.forward.xyz, found.relative)));
+}
+
+@vertex
+fn shadow_vertex(
+    @builtin(vertex_index) index: u32,
+    @builtin(instance_index) instance: u32,
+) -> @builtin(position) vec4<f32> {
+    return geometry.clip_from_relative * vec4(placed(index, instance).relative, 1.0);
 }
 
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
-    return vec4(in.ground, in.depth);
+    return in.sample;
 }

@@ -97,18 +97,14 @@ fn pipelines(gpu: &Gpu, is_painted: bool) -> GeometryPipelines {
     let buffers = [Some(layout)];
     let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
     let bindings = [uniform_entry(0, vertex), uniform_entry(1, vertex | fragment), picture_entry(2)];
-    let culled = Some(wgpu::Face::Back);
-    GeometryPipelines::new(
-        gpu,
-        &if is_painted {
-            let entries = ["painted_vertex", "painted_fragment"];
-            GeometryKind { source: albedo_map::SOURCE, entries, buffers: &buffers, bindings: &bindings, culled }
-        } else {
-            let source = include_str!("../../shaders/body_geometry.wgsl");
-            let entries = ["vertex", "fragment"];
-            GeometryKind { source, entries, buffers: &buffers, bindings: &bindings[..1], culled }
-        },
-    )
+    let culled = [Some(wgpu::Face::Back), None];
+    let (source, entries, bindings) = if is_painted {
+        (albedo_map::SOURCE, ["painted_vertex", "painted_fragment"], &bindings[..])
+    } else {
+        (include_str!("../../shaders/body_geometry.wgsl"), ["vertex", "fragment"], &bindings[..1])
+    };
+    let kind = GeometryKind { source, entries, shadow_entry: "shadow_vertex", buffers: &buffers, bindings, culled };
+    GeometryPipelines::new(gpu, &kind)
 }
 
 fn picture_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {

@@ -24,12 +24,14 @@ pub(super) struct GeometryPipelines {
 /// What differs between kinds of geometry.
 pub(super) struct GeometryKind<'a> {
     pub source: &'a str,
-    /// Entry points of the vertex and the fragment stage.
+    /// Entry points of the picture's vertex and fragment stage.
     pub entries: [&'a str; 2],
+    /// Entry point of the shadow map's vertex stage.
+    pub shadow_entry: &'a str,
     pub buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
     pub bindings: &'a [wgpu::BindGroupLayoutEntry],
-    /// Sides of triangles that pictures leave out.
-    pub culled: Option<wgpu::Face>,
+    /// Sides of triangles that pictures, and that shadow maps leave out.
+    pub culled: [Option<wgpu::Face>; 2],
 }
 
 impl GeometryPipelines {
@@ -68,16 +70,17 @@ fn pipeline(
     role: Role,
 ) -> wgpu::RenderPipeline {
     let targets = [Some(wgpu::ColorTargetState::from(SAMPLE_FORMAT))];
-    let (cull_mode, depth_compare) = match role {
-        Role::Picture => (kind.culled, wgpu::CompareFunction::Greater),
-        Role::Shadow => (None, wgpu::CompareFunction::Less),
+    let (entry, depth_compare) = match role {
+        Role::Picture => (kind.entries[0], wgpu::CompareFunction::Greater),
+        Role::Shadow => (kind.shadow_entry, wgpu::CompareFunction::Less),
     };
+    let cull_mode = kind.culled[role as usize];
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("geometry"),
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some(kind.entries[0]),
+            entry_point: Some(entry),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: kind.buffers,
         },

@@ -57,6 +57,9 @@ impl Gpu {
         let (device, queue) = pollster::block_on(chosen.request_device(&descriptor)).map_err(|e| {
             RenderError::Device { adapter: adapter_name.clone(), action: "open a device", problem: e.to_string() }
         })?;
+        if chosen.get_info().device_type == wgpu::DeviceType::Cpu {
+            keep_freed_memory();
+        }
         Ok(Gpu { device, queue, adapter_name, timestamps })
     }
 
@@ -68,6 +71,13 @@ impl Gpu {
     pub(super) fn error(&self, action: &'static str, problem: impl ToString) -> RenderError {
         RenderError::Device { adapter: self.adapter_name.clone(), action, problem: problem.to_string() }
     }
+}
+
+/// Has the C library keep memory that is freed: a software adapter asks for some tens of megabytes and frees them several
+/// times a picture, and a sixth of a picture's time went into clearing fresh pages. glibc keeps twice the largest block
+/// that was freed, of up to 32 MiB (mallopt(3), `M_MMAP_THRESHOLD`); elsewhere this does nothing.
+fn keep_freed_memory() {
+    drop(std::hint::black_box(Vec::<u8>::with_capacity(31 << 20)));
 }
 
 fn adapters() -> Vec<wgpu::Adapter> {

@@ -131,7 +131,7 @@ mod tests {
     fn structs_have_the_layout_of_the_shaders() {
         let terrain = include_str!("../../shaders/terrain_geometry.wgsl");
         let body = include_str!("../../shaders/body_geometry.wgsl");
-        let shading = super::super::shading::SOURCE;
+        let shading = super::super::shading_pipelines::SOURCE;
         for source in [terrain, body] {
             assert_layout!(source, Geometry, [clip_from_relative, forward, camera_high, camera_low, level]);
         }

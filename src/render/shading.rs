@@ -4,22 +4,11 @@ use super::geometry_pass::{buffer, uniform_entry};
 use super::gpu_data::Shading;
 use super::lens::Lens;
 use super::read_back::ReadBack;
+use super::shading_pipelines::ShadingPipelines;
 use super::shadow::ShadowMap;
 use super::targets::{SampleTarget, cleared, texture};
 use super::{Gpu, RenderError, RenderedFrame};
 use wgpu::TextureFormat::{R8Uint, R32Float, Rgba32Float};
-
-/// The shader with all that it calls.
-pub(super) const SOURCE: &str = concat!(
-    include_str!("../../shaders/noise.wgsl"),
-    include_str!("../../shaders/photometry.wgsl"),
-    include_str!("../../shaders/lens.wgsl"),
-    include_str!("../../shaders/shadow.wgsl"),
-    include_str!("../../shaders/shading.wgsl")
-);
-
-/// Half shadow up to this radius is left to the shadow map's own blur.
-const NARROW_TEXELS: f64 = 1.0;
 
 /// Formats of radiance, depth and mask, and on request of normal and albedo, with their bytes a pixel.
 const FORMATS: [(wgpu::TextureFormat, u32); 4] = [(R32Float, 4), (R32Float, 4), (R8Uint, 1), (Rgba32Float, 16)];
@@ -36,7 +25,7 @@ pub(super) struct ShadingKind {
 }
 
 impl ShadingKind {
-    fn formats(&self) -> &'static [(wgpu::TextureFormat, u32)] {
+    pub(super) fn formats(&self) -> &'static [(wgpu::TextureFormat, u32)] {
         &FORMATS[..if self.surface_truth { 4 } else { 3 }]
     }
 }
@@ -45,6 +34,8 @@ impl ShadingKind {
 #[derive(Debug)]
 pub(super) struct ShadingJob {
     pub numbers: Shading,
+    /// Octaves in the table.
+    pub octave_count: usize,
     /// Largest radius of the solar disc's image in the shadow map.
     pub widest_penumbra_texels: f64,
     /// [left, top, width, height] in px; nothing is hit outside.
@@ -53,8 +44,7 @@ pub(super) struct ShadingJob {
 
 #[derive(Debug)]
 pub(super) struct ShadingPass {
-    /// For shadows whose half shadow is nowhere wider than the map's own blur, and for any.
-    pipelines: [wgpu::RenderPipeline; 2],
+    pipelines: ShadingPipelines,
     uniform: wgpu::Buffer,
     group: wgpu::BindGroup,
     outputs: Vec<(wgpu::Texture, ReadBack)>,
@@ -87,7 +77,7 @@ impl ShadingPass {
             (target, ReadBack::new(gpu, size_px.0, size_px.1, bytes))
         };
         let outputs = kind.formats().iter().map(output).collect();
-        let pipelines = [false, true].map(|wide_penumbra| pipeline(gpu, &layout, kind, (lens, wide_penumbra)));
+        let pipelines = ShadingPipelines::new(gpu, &layout, kind, lens);
         ShadingPass { pipelines, uniform, group, outputs, size_px }
     }
 
@@ -102,8 +92,7 @@ impl ShadingPass {
                 color_attachments: &attachments,
                 ..wgpu::RenderPassDescriptor::default()
             });
-            let is_wide = job.widest_penumbra_texels > NARROW_TEXELS;
-            pass.set_pipeline(&self.pipelines[usize::from(is_wide)]);
+            pass.set_pipeline(self.pipelines.of(gpu, job));
             pass.set_bind_group(0, &self.group, &[]);
             let [left, top, width, height] = job.rectangle_px;
             if width > 0 && height > 0 {
@@ -151,55 +140,5 @@ fn group_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
             entry(3, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering)),
             entry(4, samples),
         ],
-    })
-}
-
-fn pipeline(
-    gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    kind: &ShadingKind,
-    (lens, wide_penumbra): (&Lens, bool),
-) -> wgpu::RenderPipeline {
-    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("shading"),
-        source: wgpu::ShaderSource::Wgsl(SOURCE.into()),
-    });
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("shading"),
-        bind_group_layouts: &[Some(layout)],
-        immediate_size: 0,
-    });
-    let targets: Vec<_> = kind.formats().iter().map(|(f, _)| Some(wgpu::ColorTargetState::from(*f))).collect();
-    let entry = if kind.surface_truth { "picture_with_surface" } else { "picture" };
-    let constants = [
-        ("LENS", f64::from(u8::from(lens.is_distorting()))),
-        ("STRIDE", f64::from(lens.grid.stride)),
-        ("TAPS", f64::from(lens.grid.taps())),
-        ("NARROW", NARROW_TEXELS),
-        ("WIDE_PENUMBRA", f64::from(u8::from(wide_penumbra))),
-        ("TERRAIN", f64::from(u8::from(kind.is_terrain))),
-        ("MODEL", f64::from(kind.photometry_model)),
-    ];
-    let compilation_options = wgpu::PipelineCompilationOptions::default;
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("shading"),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("vertex"),
-            compilation_options: compilation_options(),
-            buffers: &[],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some(entry),
-            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..compilation_options() },
-            targets: &targets,
-        }),
-        multiview_mask: None,
-        cache: None,
     })
 }

@@ -10,6 +10,7 @@ use super::shading::{ShadingJob, ShadingKind};
 use super::shadow::{ShadowBox, ShadowMap, shadow_axes, texture_from_clip};
 use super::terrain_geometry::TerrainGeometry;
 use super::terrain_levels::LevelRange;
+use super::terrain_octaves::ShadedWavelengths;
 use super::terrain_view::SeenGround;
 use super::{Gpu, RenderConfig, RenderError, World};
 use crate::geometry::Camera;
@@ -81,8 +82,8 @@ impl Surface {
         (lens, shadow_map): (&Lens, &ShadowMap),
     ) -> Result<ShadingJob, RenderError> {
         let placement = match &mut self.kind {
-            Kind::Body(body) => place_body(body, view)?,
-            Kind::Terrain(terrain) => place_terrain(terrain, gpu, view, (lens, config))?,
+            Kind::Body(body) => place_body(body, view, camera)?,
+            Kind::Terrain(terrain) => place_terrain(terrain, gpu, view, (camera, lens, config))?,
         };
         let rotation = view.reference_from_camera.rotation.to_homogeneous();
         let shadow_clip = placement.covered.clip_from_relative();
@@ -90,9 +91,9 @@ impl Surface {
         self.set_geometry(gpu, Role::Picture, &placement.geometry(view, &picture_clip));
         self.set_geometry(gpu, Role::Shadow, &placement.geometry(view, &shadow_clip));
 
-        let finest_m = 0.5 * placement.nearest_m.max(0.0) / camera.mean_focal_px();
         let eye_m = view.reference_from_camera.translation.vector;
-        let carried = self.octaves.partition_point(|octave| octave.wavelength_m >= placement.carried_m);
+        let ShadedWavelengths { carried_m, finest_m } = placement.shaded;
+        let carried = self.octaves.partition_point(|octave| octave.wavelength_m >= carried_m);
         let octaves = octave_table(&self.octaves[carried..], &eye_m, finest_m);
         let texel_m = shadow_map.texel_m(&placement.covered);
         let sun_tangent = view.sun_angular_radius_rad.tan();
@@ -109,7 +110,8 @@ impl Surface {
             octaves,
         };
         let widest_penumbra_texels = sun_tangent * placement.farthest_shadow_m / texel_m.xy().min();
-        Ok(ShadingJob { numbers, widest_penumbra_texels, rectangle_px: self.rectangle_px(view, lens) })
+        let octave_count = octaves.iter().filter(|octave| octave.row_x[3] > 0.0).count();
+        Ok(ShadingJob { numbers, octave_count, widest_penumbra_texels, rectangle_px: self.rectangle_px(view, lens) })
     }
 
     /// The rectangle [left, top, width, height] in px outside of which there is no surface.
@@ -143,10 +145,8 @@ struct Placement {
     levels: Option<LevelRange>,
     /// Origin of the vertices in the reference frame, m.
     anchor_m: Vector3<f64>,
-    /// No surface is nearer, in m.
-    nearest_m: f64,
-    /// Octaves of this wavelength in m and more are left to the vertices.
-    carried_m: f64,
+    /// Octaves that are left to shading.
+    shaded: ShadedWavelengths,
     /// Height of the highest terrain in the shadow map, in m.
     highest_m: f64,
     /// No surface throws a shadow farther, in m along the light.
@@ -171,7 +171,7 @@ impl Placement {
     }
 }
 
-fn place_body(body: &BodyGeometry, view: &View) -> Result<Placement, RenderError> {
+fn place_body(body: &BodyGeometry, view: &View, camera: &Camera) -> Result<Placement, RenderError> {
     body.check_view(view)?;
     let (center_m, radius_m) = body.bounding_sphere();
     let center_m = center_m - view.reference_from_camera.translation.vector;
@@ -181,8 +181,10 @@ fn place_body(body: &BodyGeometry, view: &View) -> Result<Placement, RenderError
         covered,
         levels: None,
         anchor_m: Vector3::zeros(),
-        nearest_m: center_m.norm() - radius_m,
-        carried_m: f64::INFINITY,
+        shaded: ShadedWavelengths {
+            carried_m: f64::INFINITY,
+            finest_m: 0.5 * (center_m.norm() - radius_m).max(0.0) / camera.mean_focal_px(),
+        },
         highest_m: 0.0,
         farthest_shadow_m: 2.0 * covered.half_m.z,
     })
@@ -192,7 +194,7 @@ fn place_terrain(
     terrain: &mut TerrainGeometry,
     gpu: &Gpu,
     view: &View,
-    (lens, config): (&Lens, &RenderConfig),
+    (camera, lens, config): (&Camera, &Lens, &RenderConfig),
 ) -> Result<Placement, RenderError> {
     let height_m = terrain.check_view(view)?;
     let levels = LevelRange::new(height_m, lens.finest_focal_px, config.vertex_spacing_px);
@@ -200,12 +202,12 @@ fn place_terrain(
     let tiles = terrain.prepare(gpu, &ground.volume(&lens.raster, view), &levels)?;
     let anchor_m = TerrainGeometry::anchor_m(&view.reference_from_camera.translation.vector).push(0.0);
     let [lowest_m, highest_m] = tiles.height_range_m;
+    let focal_px = (camera.focal_px.x * camera.focal_px.y).sqrt();
     Ok(Placement {
         covered: ground.covered,
         levels: Some(levels),
         anchor_m,
-        nearest_m: height_m,
-        carried_m: tiles.carried_m,
+        shaded: ShadedWavelengths::new((&lens.raster, view), &levels, tiles.seen_range_m, focal_px),
         highest_m,
         farthest_shadow_m: (highest_m - lowest_m) / view.sun_in_reference.z,
     })

@@ -5,58 +5,42 @@
 //! by (D₁ + D₂ + D₃) / 24 on average: the mean of each product of two barycentric coordinates is 1/12, and each side
 //! counts half its second difference. Vertices are moved by as much the other way.
 
-use super::terrain_tile::{COARSE_SIDE, SIDE, TileKey, TileVertex};
-use crate::scene::{GroundDetail, Terrain};
+use super::terrain_tile::{COARSE_SIDE, SIDE, TILE_VERTICES, TileKey, TileVertex, tile_vertex};
+use crate::scene::Terrain;
 use nalgebra::Vector2;
 
-/// A grid of a tile's vertices.
-struct Lattice {
-    corner_m: Vector2<f64>,
-    side: usize,
-    step_m: f64,
-    detail: GroundDetail,
-}
-
-/// Vertices of a tile, those of its coarser copy included, moved onto triangles that fit the ground.
+/// Vertices of a tile row by row, then every other one as the next coarser level has it, all moved onto triangles that fit
+/// the ground.
 pub(super) fn fitted_vertices(key: &TileKey, terrain: &Terrain) -> Vec<TileVertex> {
-    let mut vertices = key.vertices(terrain);
-    let coarser = TileKey { level: key.level + 1, ..*key };
+    let mut vertices = Vec::with_capacity(TILE_VERTICES);
     let corner_m = Vector2::from(key.corner_m());
-    let (fine, coarse) = vertices.split_at_mut(SIDE * SIDE);
-    Lattice { corner_m, side: SIDE, step_m: key.spacing_m(), detail: key.detail() }.fit(terrain, fine);
-    Lattice { corner_m, side: COARSE_SIDE, step_m: coarser.spacing_m(), detail: coarser.detail() }.fit(terrain, coarse);
+    add_fitted(terrain, &corner_m, (key, SIDE), &mut vertices);
+    add_fitted(terrain, &corner_m, (&TileKey { level: key.level + 1, ..*key }, COARSE_SIDE), &mut vertices);
     vertices
 }
 
-impl Lattice {
-    fn fit(&self, terrain: &Terrain, vertices: &mut [TileVertex]) {
-        let heights_m = self.with_ring(terrain, vertices);
-        let width = self.side + 2;
-        for (index, vertex) in vertices.iter_mut().enumerate() {
-            let at = (index / self.side + 1) * width + index % self.side + 1;
-            // Along the three directions of the triangles' sides.
-            let around = [at - 1, at + 1, at - width, at + width, at - width - 1, at + width + 1];
-            let differences_m: f64 = around.iter().map(|k| heights_m[*k] - heights_m[at]).sum();
-            vertex[0] = (heights_m[at] - differences_m / 24.0) as f32;
-        }
-    }
-
-    /// Heights of the vertices in m and of a ring around them, as tiles beside this one have them to the last bit.
-    fn with_ring(&self, terrain: &Terrain, vertices: &[TileVertex]) -> Vec<f64> {
-        let (side, edge_m) = (self.side, (self.side - 1) as f64 * self.step_m);
-        let (low_m, high_m) = (self.corner_m.add_scalar(-self.step_m), self.corner_m.add_scalar(edge_m + self.step_m));
-        let patch = terrain.patch(&low_m, &high_m, &self.detail);
-        let height_m = |row: usize, column: usize| {
-            if (1..=side).contains(&row) && (1..=side).contains(&column) {
-                return f64::from(vertices[(row - 1) * side + column - 1][0]);
-            }
-            let place_m = low_m + Vector2::new(column as f64, row as f64) * self.step_m;
-            f64::from(patch.sample(place_m.x, place_m.y).height_m as f32)
-        };
-        (0..side + 2)
-            .flat_map(|row| (0..side + 2).map(move |column| (row, column)))
-            .map(|(r, c)| height_m(r, c))
-            .collect()
+/// Adds a square grid of vertices, `side` along each edge, with the spacing and the details of a level.
+fn add_fitted(
+    terrain: &Terrain,
+    corner_m: &Vector2<f64>,
+    (level, side): (&TileKey, usize),
+    vertices: &mut Vec<TileVertex>,
+) {
+    let step_m = level.spacing_m();
+    // With a ring around, as the tiles beside this one have it to the last bit.
+    let width = side + 2;
+    let low_m = corner_m.add_scalar(-step_m);
+    let patch = terrain.patch(&low_m, &low_m.add_scalar((width - 1) as f64 * step_m), &level.detail());
+    let at = |row: usize, column: usize| low_m + Vector2::new(column as f64, row as f64) * step_m;
+    let places = (0..width).flat_map(|row| (0..width).map(move |column| at(row, column)));
+    let ground: Vec<TileVertex> = places.map(|place_m| tile_vertex(&patch.sample(place_m.x, place_m.y))).collect();
+    let height_m = |index: usize| f64::from(ground[index][0]);
+    for middle in (1..=side).flat_map(|row| (1..=side).map(move |column| row * width + column)) {
+        // Along the three directions of the triangles' sides.
+        let around = [middle - 1, middle + 1, middle - width, middle + width, middle - width - 1, middle + width + 1];
+        let differences_m: f64 = around.iter().map(|k| height_m(*k) - height_m(middle)).sum();
+        let [_, by_x, by_y, albedo] = ground[middle];
+        vertices.push([(height_m(middle) - differences_m / 24.0) as f32, by_x, by_y, albedo]);
     }
 }
 

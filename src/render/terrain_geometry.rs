@@ -13,13 +13,20 @@ use wgpu::util::DeviceExt;
 /// Least height above the ground in m.
 const LEAST_CLEARANCE_M: f64 = 0.02;
 
+/// The picture shows both sides: slivers of vertices that have nearly slid onto each other face either way by rounding, and
+/// none may be missing. The shadow map leaves out the ground that faces the Sun (its right and up and the direction of light
+/// are right-handed, so that it shows triangles mirrored): light that something keeps from ground has entered what keeps it
+/// away by a side that faces away from the Sun, and without the other side lit ground cannot shadow itself (after Wang and
+/// Molnar, "Second-depth shadow mapping", 1994).
+const CULLED: [Option<wgpu::Face>; 2] = [None, Some(wgpu::Face::Back)];
+
 /// What is known of the tiles of a view.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DrawnTiles {
-    /// From this wavelength in m on, vertices carry all that the picture shows of the octaves.
-    pub carried_m: f64,
     /// Heights in m of the lowest and the highest vertex.
     pub height_range_m: [f64; 2],
+    /// The same of what the picture may show.
+    pub seen_range_m: [f64; 2],
 }
 
 #[derive(Debug)]
@@ -31,7 +38,8 @@ pub(super) struct TerrainGeometry {
     tiles: wgpu::Buffer,
     groups: [wgpu::BindGroup; 2],
     indices: wgpu::Buffer,
-    tile_count: u32,
+    /// Tiles that the picture and the shadow map show: the first ones.
+    tile_counts: [u32; 2],
 }
 
 impl TerrainGeometry {
@@ -39,10 +47,10 @@ impl TerrainGeometry {
         let kind = GeometryKind {
             source: include_str!("../../shaders/terrain_geometry.wgsl"),
             entries: ["vertex", "fragment"],
+            shadow_entry: "shadow_vertex",
             buffers: &[],
             bindings: &[uniform_entry(0, wgpu::ShaderStages::VERTEX), storage_entry(1), storage_entry(2)],
-            // Slivers of vertices that have nearly slid onto each other face either way by rounding: none may be missing.
-            culled: None,
+            culled: CULLED,
         };
         let pipelines = GeometryPipelines::new(gpu, &kind);
         let pool = TilePool::new(gpu);
@@ -55,7 +63,16 @@ impl TerrainGeometry {
             contents: bytemuck::cast_slice(&tile_indices()),
             usage: wgpu::BufferUsages::INDEX,
         });
-        TerrainGeometry { terrain: terrain.clone(), pipelines, pool, uniforms, tiles, groups, indices, tile_count: 0 }
+        TerrainGeometry {
+            terrain: terrain.clone(),
+            pipelines,
+            pool,
+            uniforms,
+            tiles,
+            groups,
+            indices,
+            tile_counts: [0; 2],
+        }
     }
 
     /// What is drawn.
@@ -91,18 +108,20 @@ impl TerrainGeometry {
         let keys = choose_tiles(&self.terrain, volume, levels);
         let capacity = self.pool.capacity();
         let slots = self.pool.place(gpu, &self.terrain, &keys)?;
+        let (seen, unseen): (Vec<_>, Vec<_>) =
+            keys.iter().zip(slots).partition(|(key, _)| volume.shows_tile(key, self.pool.heights_m(key)));
         if self.pool.capacity() != capacity {
             self.tiles = tile_buffer(gpu, &self.pool);
             let uniforms = [&self.uniforms[0], &self.uniforms[1]];
             self.groups = bind(gpu, &self.pipelines, uniforms, [&self.tiles, self.pool.buffer()]);
         }
         let anchor_m = Self::anchor_m(&volume.camera_in_site_m);
-        let tiles: Vec<Tile> = keys.iter().zip(slots).map(|(key, slot)| tile(key, slot, &anchor_m)).collect();
+        let tiles: Vec<Tile> = seen.iter().chain(&unseen).map(|(key, slot)| tile(key, *slot, &anchor_m)).collect();
         gpu.queue.write_buffer(&self.tiles, 0, bytemuck::cast_slice(&tiles));
-        self.tile_count = tiles.len() as u32;
+        self.tile_counts = [seen.len(), tiles.len()].map(|count| count as u32);
         Ok(DrawnTiles {
-            carried_m: keys.iter().map(TileKey::carried_m).fold(0.0, f64::max),
-            height_range_m: self.pool.height_range_m(&keys),
+            height_range_m: self.pool.height_range_m(keys.iter()),
+            seen_range_m: self.pool.height_range_m(seen.iter().map(|(key, _)| *key)),
         })
     }
 
@@ -114,7 +133,7 @@ impl TerrainGeometry {
         pass.set_pipeline(self.pipelines.of(role));
         pass.set_bind_group(0, &self.groups[role as usize], &[]);
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint16);
-        pass.draw_indexed(0..(6 * (SIDE - 1) * (SIDE - 1)) as u32, 0, 0..self.tile_count);
+        pass.draw_indexed(0..(6 * (SIDE - 1) * (SIDE - 1)) as u32, 0, 0..self.tile_counts[role as usize]);
     }
 }
 

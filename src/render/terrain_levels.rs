@@ -4,7 +4,7 @@
 //! and Game Tools 14(4), 2009. Distance is taken from the place on a plane `height_m` below the camera, so that it is
 //! the same for every vertex that tiles share.
 
-use super::terrain_tile::{COARSEST_LEVEL, FINEST_LEVEL, SIDE, TileKey};
+use super::terrain_tile::{COARSEST_LEVEL, FINEST_LEVEL, SHADE_SPACINGS, SIDE, TileKey};
 use crate::scene::Terrain;
 use nalgebra::{Vector2, Vector3};
 
@@ -38,6 +38,15 @@ impl LevelRange {
 
     fn range_m(&self, level: i32) -> f64 {
         self.range_over_spacing * 2.0_f64.powi(level)
+    }
+
+    /// Octaves of this wavelength in m and more are the vertices' to carry at a distance in m and nearer, be they slid onto
+    /// the coarser grid or not: `carried_by` in `shaders/shading.wgsl`.
+    pub(super) fn carried_m(&self, distance_m: f64) -> f64 {
+        let levels = f64::from(FINEST_LEVEL)..=f64::from(COARSEST_LEVEL);
+        let level = (distance_m / self.range_over_spacing).log2().ceil().clamp(*levels.start(), *levels.end());
+        let has_slid = distance_m > self.morph_start * self.range_over_spacing * level.exp2();
+        SHADE_SPACINGS * (level + f64::from(u8::from(has_slid))).exp2()
     }
 }
 
@@ -85,7 +94,22 @@ fn touches(key: &TileKey, terrain: &Terrain, volume: &ViewVolume) -> bool {
     let middle = Vector2::new(x_m + half_m, y_m + half_m);
     let relief_m = terrain.relief_bound_m(&middle, half_m);
     let height_m = terrain.sample(middle.x, middle.y, &key.detail()).height_m;
-    let center = Vector3::new(middle.x, middle.y, height_m) - volume.camera_in_site_m + 0.5 * volume.shadow_in_site_m;
-    let half = Vector3::new(half_m, half_m, relief_m) + 0.5 * volume.shadow_in_site_m.abs();
-    volume.sides_in_site.iter().all(|n| n.dot(&center) + n.abs().dot(&half) >= 0.0)
+    let shadow_m = 0.5 * volume.shadow_in_site_m;
+    let half = Vector3::new(half_m, half_m, relief_m) + shadow_m.abs();
+    volume.shows(&(middle.push(height_m) + shadow_m), &half)
+}
+
+impl ViewVolume {
+    /// Whether the camera may see a tile whose vertices lie between two heights in m.
+    pub(super) fn shows_tile(&self, key: &TileKey, [lowest_m, highest_m]: [f64; 2]) -> bool {
+        let [x_m, y_m] = key.corner_m();
+        let half = 0.5 * Vector3::new(key.edge_m(), key.edge_m(), highest_m - lowest_m);
+        self.shows(&(Vector3::new(x_m, y_m, lowest_m) + half), &half)
+    }
+
+    /// Whether the camera may see something of a box with a middle and half sides in m.
+    fn shows(&self, middle_in_site_m: &Vector3<f64>, half_m: &Vector3<f64>) -> bool {
+        let center = middle_in_site_m - self.camera_in_site_m;
+        self.sides_in_site.iter().all(|n| n.dot(&center) + n.abs().dot(half_m) >= 0.0)
+    }
 }

@@ -80,9 +80,14 @@ impl TilePool {
         Ok(keys.iter().map(|key| self.slots[key].index).collect())
     }
 
+    /// Heights in m of the lowest and the highest vertex of a tile that is present.
+    pub(super) fn heights_m(&self, key: &TileKey) -> [f64; 2] {
+        self.slots[key].heights_m.map(f64::from)
+    }
+
     /// Heights in m of the lowest and the highest vertex of tiles that are present.
-    pub(super) fn height_range_m(&self, keys: &[TileKey]) -> [f64; 2] {
-        range(keys.iter().map(|key| self.slots[key].heights_m)).map(f64::from)
+    pub(super) fn height_range_m<'a>(&self, keys: impl Iterator<Item = &'a TileKey>) -> [f64; 2] {
+        range(keys.map(|key| self.slots[key].heights_m)).map(f64::from)
     }
 
     fn touch(&mut self, key: &TileKey) -> bool {

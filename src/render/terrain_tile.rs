@@ -1,7 +1,6 @@
 //! Square tiles of terrain vertices, each of one level of a quadtree.
 
-use crate::scene::{GroundDetail, GroundSample, Terrain};
-use nalgebra::Vector2;
+use crate::scene::{GroundDetail, GroundSample};
 
 /// Vertices along a tile's edge: `SIDE` in `shaders/terrain_geometry.wgsl`.
 pub(super) const SIDE: usize = 33;
@@ -13,8 +12,9 @@ pub(super) const TILE_VERTICES: usize = SIDE * SIDE + COARSE_SIDE * COARSE_SIDE;
 pub(super) const FINEST_LEVEL: i32 = -8;
 /// Four tiles of the coarsest level cover ±524 km: beyond the horizon from 12 km above Mars.
 pub(super) const COARSEST_LEVEL: i32 = 14;
-/// Relief and albedo of this many spacings and more are the vertices' to carry; finer ones are shaded per pixel.
-const SHADE_SPACINGS: f64 = 8.0;
+/// Relief and albedo of this many spacings and more are the vertices' to carry; finer ones are shaded per pixel:
+/// `SHADE_SPACINGS` in `shaders/shading.wgsl`.
+pub(super) const SHADE_SPACINGS: f64 = 8.0;
 /// Relief of this many spacings and more displaces vertices.
 const HEIGHT_SPACINGS: f64 = 1.0;
 /// Features of this many spacings and more displace vertices.
@@ -61,40 +61,9 @@ impl TileKey {
             footprint_m: 0.0,
         }
     }
-
-    /// Octaves of this wavelength in m and more are the vertices' to carry, be they slid onto the coarser grid or not.
-    pub(super) fn carried_m(&self) -> f64 {
-        2.0 * SHADE_SPACINGS * self.spacing_m()
-    }
-
-    /// The tile's vertices row by row, then every other one as the next coarser level has it.
-    pub(super) fn vertices(&self, terrain: &Terrain) -> Vec<TileVertex> {
-        let coarser = TileKey { level: self.level + 1, ..*self };
-        let mut vertices = Vec::with_capacity(TILE_VERTICES);
-        self.sample_grid(terrain, &self.detail(), (SIDE, 1.0), &mut vertices);
-        self.sample_grid(terrain, &coarser.detail(), (COARSE_SIDE, 2.0), &mut vertices);
-        vertices
-    }
-
-    fn sample_grid(
-        &self,
-        terrain: &Terrain,
-        detail: &GroundDetail,
-        (side, step): (usize, f64),
-        vertices: &mut Vec<TileVertex>,
-    ) {
-        let [x_m, y_m] = self.corner_m();
-        let step_m = step * self.spacing_m();
-        let low_m = Vector2::new(x_m, y_m);
-        let patch = terrain.patch(&low_m, &low_m.add_scalar(self.edge_m()), detail);
-        for j in 0..side {
-            for i in 0..side {
-                vertices.push(vertex(&patch.sample(x_m + i as f64 * step_m, y_m + j as f64 * step_m)));
-            }
-        }
-    }
 }
 
-fn vertex(ground: &GroundSample) -> TileVertex {
+/// What the adapter reads of the ground at a vertex.
+pub(super) fn tile_vertex(ground: &GroundSample) -> TileVertex {
     [ground.height_m as f32, ground.gradient.x as f32, ground.gradient.y as f32, ground.albedo_change as f32]
 }

@@ -260,13 +260,26 @@ impl<'a> OctaveSums<'a> {
         &self.at
     }
 
+    /// Displacement in m of contacts by the octaves from `first` on, those outside the relief left out, and the most that
+    /// these can add.
+    pub(super) fn coarse_displacement_m(&self, first: usize) -> (f64, f64) {
+        let coarse_m = self.displacement_m[first.min(self.count)..self.count].iter().sum();
+        (coarse_m, self.fine_octaves(first).map(|o| DISPLACEMENT * o.wavelength_m).sum())
+    }
+
+    /// Displacement in m of contacts by the octaves from `first` on that are outside the relief.
+    pub(super) fn fine_displacement_m(&self, first: usize) -> f64 {
+        let value = |o: &NoiseOctave| o.values_planar_from(None, self.at.x, self.at.y)[1];
+        self.fine_octaves(first).map(|o| DISPLACEMENT * o.wavelength_m * value(o)).sum()
+    }
+
+    fn fine_octaves(&self, first: usize) -> impl Iterator<Item = &NoiseOctave> {
+        self.octaves.iter().take(self.displacing).skip(first.max(self.count))
+    }
+
     /// Displacement in m of contacts by the octaves from `first` on.
     pub(super) fn displacement_m(&self, first: usize) -> f64 {
-        let coarse_m: f64 = self.displacement_m[first.min(self.count)..self.count].iter().sum();
-        let fine = self.octaves.iter().take(self.displacing).skip(first.max(self.count));
-        let fine_m =
-            |o: &NoiseOctave| DISPLACEMENT * o.wavelength_m * o.values_planar_from(None, self.at.x, self.at.y)[1];
-        coarse_m + fine.map(fine_m).sum::<f64>()
+        self.coarse_displacement_m(first).0 + self.fine_displacement_m(first)
     }
 
     /// Gradient of [`OctaveSums::displacement_m`] by the octaves in the relief.

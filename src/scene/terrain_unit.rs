@@ -52,9 +52,15 @@ impl UnitClass {
     ) {
         let [field, _] = self.field.values_planar_from(table, at.x, at.y);
         let per_field_m = DISTANCE_PER_FIELD * self.field.wavelength_m;
-        let distance_m = per_field_m * field + ground.displacement_m(self.first_octave);
         // No narrower than the details that are evaluated, so that vertices do not miss it.
         let half_width_m = self.half_width_m.hypot(detail.height_m).max(1e-3);
+        let (coarse_m, fine_most_m) = ground.coarse_displacement_m(self.first_octave);
+        let coarse_m = per_field_m * field + coarse_m;
+        if coarse_m.abs() > half_width_m + fine_most_m {
+            self.add_side_to(total, at, (0.5_f64.copysign(coarse_m), detail));
+            return;
+        }
+        let distance_m = coarse_m + ground.fine_displacement_m(self.first_octave);
         let across = distance_m / half_width_m;
         if across.abs() >= 1.0 {
             self.add_side_to(total, at, (0.5_f64.copysign(across), detail));
