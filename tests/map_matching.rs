@@ -1,5 +1,7 @@
 //! Rendered pictures against rendered maps: where points of the map are found, and what happens where they are not.
 
+mod descents;
+
 use image::GrayImage;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
 use opnav::dataset::{GroundMap, MapLevel};

@@ -26,7 +26,7 @@ pub(super) fn known_sightings(
     let record = ImuRecord { samples: &input.imu, noise: &input.imu_noise };
     let mount = input.mount();
     let mut navigator = Navigator::new(&input.initial, config);
-    let (mut last_ns, mut known) = (input.initial.t_ns, Vec::new());
+    let (mut last_ns, mut last_height_m, mut known) = (input.initial.t_ns, None, Vec::new());
     progress.begin("matching the map", input.frame_times_ns.len());
     for (index, t_ns) in input.frame_times_ns.iter().copied().enumerate() {
         let increment = record.between(last_ns, t_ns, &navigator.biases())?;
@@ -39,7 +39,11 @@ pub(super) fn known_sightings(
             let camera = predicted_camera(&predicted, &mount.lander_from_camera, config);
             let fix = matcher.sightings(&picture, &mount.camera, &camera)?;
             count(&fix, summary);
-            let sightings: Vec<KnownSighting> = fix.sightings.iter().map(|s| known_sighting(t_ns, s)).collect();
+            let height_m = predicted.state.lander_in_site_m.z;
+            let sharing = last_height_m.map_or(1.0, |last_m| pictures_that_share(height_m / last_m));
+            last_height_m = Some(height_m);
+            let sighting = |s: &MapSighting| known_sighting(t_ns, s, sharing);
+            let sightings: Vec<KnownSighting> = fix.sightings.iter().map(sighting).collect();
             bearings.extend(sightings.iter().filter_map(|s| mount.known_bearing(s, config.sigma_floor_px)));
             known.extend(sightings);
         }
@@ -69,14 +73,24 @@ fn predicted_camera(
     }
 }
 
-fn known_sighting(t_ns: i64, sighting: &MapSighting) -> KnownSighting {
+/// What a picture shows otherwise than the map stays wrong in the same way until the scale has changed by this, as a
+/// natural logarithm (fitted to rendered ground).
+const SHARED_SCALE: f64 = 0.25;
+
+/// How many pictures share their errors, given the change of scale from each to the next.
+fn pictures_that_share(scale: f64) -> f64 {
+    (SHARED_SCALE / scale.ln().abs().max(1e-3)).max(1.0)
+}
+
+/// A sighting whose errors so many pictures `sharing` them make right together, taken as independent.
+fn known_sighting(t_ns: i64, sighting: &MapSighting, sharing: f64) -> KnownSighting {
     let variance_m2 = (2.0 * sighting.sigma_horizontal_m.powi(2) + sighting.sigma_vertical_m.powi(2)) / 3.0;
     KnownSighting {
         t_ns,
         pixel_px: sighting.pixel_px,
-        sigma_px: sighting.sigma_px(),
+        sigma_px: sighting.sigma_px() * sharing.sqrt(),
         point_in_site_m: sighting.point_in_site_m,
-        sigma_point_m: variance_m2.sqrt(),
+        sigma_point_m: (variance_m2 * sharing).sqrt(),
     }
 }
 

@@ -28,8 +28,10 @@ pub struct MapMatchConfig {
     pub looks_sigma_px: f64,
     /// 1σ of each coordinate of what all points of a picture have in common, in px of the halved picture (default 0.05).
     pub common_sigma_px: f64,
-    /// 1σ of how far all corners of a picture stand out above the map's heights together, in footprints of a pixel of the
-    /// halved picture (default 0.15, fitted to rendered ground: crests catch the eye, hollows do not).
+    /// How far the corners of a picture stand out above the map's heights on average, in footprints of a pixel of the
+    /// halved picture (default 0.1, fitted to rendered ground: crests catch the eye, hollows do not).
+    pub standing_out: f64,
+    /// 1σ of that, common to all corners of a picture (default 0.1).
     pub standing_out_sigma: f64,
 }
 
@@ -45,7 +47,8 @@ impl Default for MapMatchConfig {
             track_sigma_px: 3.0,
             looks_sigma_px: 0.1,
             common_sigma_px: 0.05,
-            standing_out_sigma: 0.15,
+            standing_out: 0.1,
+            standing_out_sigma: 0.1,
         }
     }
 }
@@ -92,6 +95,7 @@ impl MapMatchConfig {
             ),
             not_negative("map.looks_sigma_px", self.looks_sigma_px),
             not_negative("map.common_sigma_px", self.common_sigma_px),
+            not_negative("map.standing_out", self.standing_out),
             not_negative("map.standing_out_sigma", self.standing_out_sigma),
         ];
         match checks.iter().find(|(_, _, holds, _)| !holds) {

@@ -65,7 +65,9 @@ pub(super) fn find(
     let point = |(corner, found): (&Vector2<f64>, &Option<crate::vision::KltPoint>)| {
         let found = found.as_ref()?;
         let covariance_px2 = found.covariance_px2 + looks_px2;
-        Some(FoundPoint { meeting: view.meet(corner)?, pixel_px: found.pixel_px, covariance_px2 })
+        let mut meeting = view.meet(corner)?;
+        meeting.point_in_site_m.z += config.standing_out * meeting.footprint_m;
+        Some(FoundPoint { meeting, pixel_px: found.pixel_px, covariance_px2 })
     };
     Ok(corners.iter().zip(&found).filter_map(point).collect())
 }

@@ -1,0 +1,143 @@
+//! Whole descents by a map, from pixels: yaw is observed, and the position is that of the map.
+
+use crate::bar::{Bar, check_table};
+use nalgebra::Vector2;
+use opnav::dataset::{read_ground_map, write_ground_map};
+use opnav::evaluation::Metrics;
+use opnav::pipeline::{
+    FrontEndConfig, LandRequest, LandingConfig, MapRequest, Silent, SurveyLevel, SynthesizeRequest, evaluate_result,
+    land, make_map, synthesize,
+};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// A descent with its map in a folder of their own.
+struct Descent {
+    folder: TempDir,
+}
+
+impl Descent {
+    fn new(overrides: &[String], levels: &[SurveyLevel]) -> Descent {
+        let folder = TempDir::new().expect("a temporary folder");
+        let descent = Descent { folder };
+        let scenario = Path::new(env!("CARGO_MANIFEST_DIR")).join("datasets/mars_descent_small.toml");
+        let images = SynthesizeRequest {
+            scenario: scenario.clone(),
+            out: descent.at("images"),
+            overrides: overrides.to_vec(),
+            frames: None,
+            resume: false,
+            adapter: None,
+        };
+        synthesize(&images, &Silent).expect("the scenario renders");
+        let map = MapRequest {
+            scenario,
+            out: descent.at("map"),
+            overrides: overrides.to_vec(),
+            levels: levels.to_vec(),
+            adapter: None,
+        };
+        make_map(&map, &Silent).expect("the scenario is mapped");
+        descent
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn landed_by(&self, map: Option<&str>) -> Metrics {
+        let request = LandRequest {
+            folder: self.at("images"),
+            out: self.at("landing"),
+            map: map.map(|name| self.at(name)),
+            config: LandingConfig::from_pixels(),
+            front_end: FrontEndConfig::default(),
+        };
+        land(&request, &Silent).expect("the descent is navigated");
+        evaluate_result(&request.out, &request.folder).expect("the result is evaluated")
+    }
+
+    /// A copy of the map that lies elsewhere.
+    fn shift_map(&self, name: &str, by_m: Vector2<f64>) {
+        let mut map = read_ground_map(&self.at("map")).expect("a map");
+        map.levels.iter_mut().for_each(|level| level.first_in_site_m += by_m);
+        write_ground_map(&self.at(name), &map).expect("written");
+    }
+}
+
+fn figure(metrics: &Metrics, name: &str) -> f64 {
+    metrics.figure(name).unwrap_or(f64::NAN)
+}
+
+/// A small descent with a coarse map; the same without any, and by one that lies 5 m off, show what the map brings.
+#[test]
+fn a_descent_follows_its_map() {
+    let overrides = [
+        "camera.width_px=256",
+        "camera.height_px=256",
+        "descent.schedule.constant-scale.count=30",
+        "descent.landmarks=0",
+    ];
+    let level = |metres_per_px: f64, side_m: f64| SurveyLevel { metres_per_px, side_m };
+    let levels = [level(1.0, 400.0), level(4.0, 2400.0), level(16.0, 16_000.0)];
+    let descent = Descent::new(&overrides.map(String::from), &levels);
+    let [with, without] = [Some("map"), None].map(|map| descent.landed_by(map));
+    let horizontal_m = figure(&with, "last_picture_horizontal_error");
+    let [yaw_deg, free_deg] = [&with, &without].map(|m| figure(m, "last_picture_yaw_error").abs());
+    println!("{horizontal_m} m, yaw {yaw_deg} and {free_deg} degrees");
+    assert!(horizontal_m < 0.5, "{horizontal_m} m from where the map says");
+    assert!(figure(&with, "last_picture_z_error").abs() < 1.0);
+    assert!(yaw_deg < 0.05, "yaw {yaw_deg} degrees");
+    assert!(free_deg > 0.05, "yaw is observed without a map: {free_deg} degrees");
+    descent.shift_map("shifted", Vector2::new(3.0, -4.0));
+    let off_m = figure(&descent.landed_by(Some("shifted")), "last_picture_horizontal_error");
+    assert!((4.0..6.0).contains(&off_m), "a map that lies 5 m off leads {off_m} m off");
+}
+
+const SEEDS: std::ops::RangeInclusive<u64> = 1..=10;
+
+#[test]
+#[ignore = "many minutes: run by `make accuracy`"]
+fn accuracy_of_the_map_mode() {
+    let mut all: Vec<Metrics> = Vec::new();
+    let mut shifted_m = f64::NAN;
+    for seed in SEEDS {
+        let overrides = [format!("seed={seed}"), "camera.width_px=1024".into(), "camera.height_px=1024".into()];
+        let descent = Descent::new(&overrides, &MapRequest::LEVELS);
+        all.push(descent.landed_by(Some("map")));
+        let [horizontal, z, yaw, nees] =
+            ["last_picture_horizontal_error", "last_picture_z_error", "last_picture_yaw_error", "nees_per_dof_mean"]
+                .map(|name| figure(&all[all.len() - 1], name));
+        println!("seed {seed}: horizontal {horizontal:.3} m, z {z:.3} m, yaw {yaw:.4} deg, NEES/9 {nees:.2}");
+        if seed == *SEEDS.start() {
+            descent.shift_map("shifted", Vector2::new(2.0, 0.0));
+            shifted_m = figure(&descent.landed_by(Some("shifted")), "last_picture_horizontal_error");
+        }
+    }
+    let three_rms = |name: &str| {
+        let squared = all.iter().map(|m| figure(m, name).powi(2));
+        3.0 * (squared.sum::<f64>() / all.len() as f64).sqrt()
+    };
+    let bars = ["last_picture", "final"].iter().flat_map(|when| {
+        let bar = |what: &str, bound: f64, unit| {
+            let name = format!("{when}_{what}_error");
+            Bar::at_most(format!("3 r.m.s. of {name}"), three_rms(&name), bound, unit)
+        };
+        vec![
+            bar("horizontal", 0.5, "m"),
+            bar("z", 1.0, "m"),
+            bar("speed", 0.15, "m/s"),
+            bar("roll", 0.05, "deg"),
+            bar("pitch", 0.05, "deg"),
+            bar("yaw", 0.05, "deg"),
+        ]
+    });
+    let nees = all.iter().map(|m| figure(m, "nees_per_dof_mean")).sum::<f64>() / all.len() as f64;
+    let more = [
+        Bar::at_least("NEES per degree of freedom", nees, 0.6, ""),
+        Bar::at_most("NEES per degree of freedom", nees, 1.6, ""),
+        Bar::at_least("horizontal error by a map that lies 2 m off", shifted_m, 1.5, "m"),
+    ];
+    let title = "landing by a map, 10 descents of 1024 px";
+    check_table(title, std::iter::once(bars.chain(more).collect()));
+}
