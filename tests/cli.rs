@@ -3,6 +3,7 @@
 
 mod folders;
 mod long_folder;
+mod montecarlo;
 mod outcomes;
 
 use assert_cmd::Command;

@@ -1,7 +1,11 @@
 //! Tests of the room `navigation::landing`.
 
+#[path = "landing/campaign.rs"]
+mod campaign;
 #[path = "landing/descent.rs"]
 mod descent;
+#[path = "landing/extras.rs"]
+mod extras;
 #[path = "landing/flight.rs"]
 mod flight;
 #[path = "landing/linear.rs"]

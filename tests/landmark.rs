@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, Unit, UnitQuaternion, Vector3};
 use opnav::navigation::landmark::{
     Candidate, GroundPrior, Metric, Selector, Triangle, Viewpoint, bearing_jacobian, bearing_matrix, choose,
-    golden_section, metric, posterior_position_variance_m2,
+    golden_section, metric, posterior_position_variance_m2, scaled_metric, stacked_bearings,
 };
 use opnav::stats::random_stream;
 
@@ -230,5 +230,45 @@ fn selectors_are_spelled_as_on_the_command_line() {
     for name in ["depth-error", "svd", "gdop", "condition", "covariance", "random", "none"] {
         let selector: Selector = serde_json::from_value(name.into()).expect(name);
         assert_eq!(serde_json::to_value(selector).expect("plain"), name);
+    }
+}
+
+/// The optimum that the classical metrics share, in closed form: no ground point on the line of the lander has a larger λ4
+/// by more than the search's grain.
+#[test]
+fn lambda4_closed_form_is_its_maximum() {
+    for view in [at_start(), at_60_s()] {
+        let point_m =
+            Selector::Lambda4.ideal_landmark_in_site_m(&view, &mut random_stream(0, "test", 0)).expect("above");
+        let best = metric(Metric::ClosedForm, &view.lander_in_site_m, &point_m);
+        let course = Vector3::new(view.lander_in_site_m.x, view.lander_in_site_m.y, 0.0).normalize();
+        for k in -200..=200 {
+            let other_m = course * (f64::from(k) * 60.0);
+            let value = metric(Metric::ClosedForm, &view.lander_in_site_m, &other_m);
+            assert!(value <= best * (1.0 + 1e-9), "{value} at {other_m} against {best} at {point_m}");
+        }
+    }
+}
+
+/// Three epochs tell all but a turn about the vertical: 11 of 12 singular values, the null vector yaw.
+#[test]
+fn three_epochs_leave_yaw_alone_unknown() {
+    let view = at_60_s();
+    let point_m = Vector3::new(1439.428, 3308.203, 0.0);
+    let stacked = stacked_bearings(&view, &point_m);
+    let mut singular = stacked.singular_values();
+    singular.as_mut_slice().sort_by(|a, b| b.total_cmp(a));
+    assert!(singular[11] < 1e-9 * singular[0] && singular[10] > 1e-9 * singular[0], "{singular}");
+    let least = scaled_metric(Metric::SingularValue, &view, &point_m);
+    assert!((least / singular[10] - 1.0).abs() < 1e-9);
+    assert!(scaled_metric(Metric::Dilution, &view, &point_m) < least * least);
+    assert!((scaled_metric(Metric::Condition, &view, &point_m) - least / singular[0]).abs() < 1e-12);
+}
+
+/// Every word names its selector, in files too.
+#[test]
+fn selectors_have_their_words() {
+    for selector in Selector::ALL {
+        assert_eq!(serde_json::to_string(&selector).expect("plain"), format!("\"{}\"", selector.word()));
     }
 }

@@ -1,8 +1,8 @@
 //! `opnav land`: navigate a descent.
 
+use super::landing_options::{LandingOptions, selector_parser};
 use super::progress::Terminal;
-use clap::ValueEnum;
-use opnav::pipeline::{FilterKind, FrontEndConfig, LandRequest, LandingConfig, PipelineError, Selector, land};
+use opnav::pipeline::{FrontEndConfig, LandRequest, LandingConfig, PipelineError, Selector, land};
 use std::path::PathBuf;
 
 /// Navigate a descent by its pictures and its IMU.
@@ -17,75 +17,29 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     map: Option<PathBuf>,
     /// How the unknown landmark is chosen.
-    #[arg(long, value_enum, default_value = "depth-error")]
-    selector: SelectorName,
-    /// The filter: the consistent one, or the paper's standard error-state one.
-    #[arg(long, value_enum, default_value = "hybrid")]
-    filter: FilterName,
+    #[arg(long, value_parser = selector_parser(), default_value = "depth-error")]
+    selector: Selector,
     /// How many unknown landmarks are followed at a time.
     #[arg(long, value_name = "N", default_value = "3")]
     landmarks: usize,
     /// Observations after which an unknown landmark may be replaced.
     #[arg(long, value_name = "N", default_value = "8")]
     reselect_after: usize,
-    /// Gravity of the planet in m/s².
-    #[arg(long, value_name = "M_S2", default_value = "3.711")]
-    gravity: f64,
+    #[command(flatten)]
+    filter: LandingOptions,
     /// Seed of the random selector.
     #[arg(long, default_value = "0")]
     seed: u64,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum SelectorName {
-    DepthError,
-    Svd,
-    Gdop,
-    Condition,
-    Covariance,
-    Random,
-    None,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum FilterName {
-    Hybrid,
-    Standard,
-}
-
-impl From<SelectorName> for Selector {
-    fn from(name: SelectorName) -> Self {
-        match name {
-            SelectorName::DepthError => Selector::DepthError,
-            SelectorName::Svd => Selector::Svd,
-            SelectorName::Gdop => Selector::Gdop,
-            SelectorName::Condition => Selector::Condition,
-            SelectorName::Covariance => Selector::Covariance,
-            SelectorName::Random => Selector::Random,
-            SelectorName::None => Selector::None,
-        }
-    }
-}
-
-impl From<FilterName> for FilterKind {
-    fn from(name: FilterName) -> Self {
-        match name {
-            FilterName::Hybrid => FilterKind::Hybrid,
-            FilterName::Standard => FilterKind::Standard,
-        }
-    }
-}
-
 /// Navigates and prints the final state.
 pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineError> {
     let config = LandingConfig {
-        selector: arguments.selector.into(),
-        filter: arguments.filter.into(),
+        selector: arguments.selector,
         unknown_landmarks: arguments.landmarks,
         reselect_after: arguments.reselect_after,
-        gravity_m_s2: arguments.gravity,
         seed: arguments.seed,
-        ..LandingConfig::from_pixels()
+        ..arguments.filter.applied_to(LandingConfig::from_pixels())
     };
     let request = LandRequest {
         folder: arguments.folder.clone(),

@@ -1,7 +1,7 @@
 //! The command line as a whole: which subcommand, how errors end.
 
 use super::progress::Terminal;
-use super::{bench, demo, doctor, evaluate, export, land, map, reference, render, report, track, tumble};
+use super::{bench, demo, doctor, evaluate, export, land, map, montecarlo, reference, render, report, track, tumble};
 use clap::{Parser, Subcommand};
 use opnav::pipeline::PipelineError;
 use std::process::ExitCode;
@@ -23,8 +23,9 @@ enum Command {
     Demo(demo::Arguments),
     Render(render::Arguments),
     Track(track::Arguments),
-    Land(land::Arguments),
+    Land(Box<land::Arguments>),
     Map(map::Arguments),
+    Montecarlo(montecarlo::Arguments),
     Tumble(tumble::Arguments),
     Evaluate(evaluate::Arguments),
     Report(report::Arguments),
@@ -54,6 +55,7 @@ fn dispatch(command: Command, terminal: &Terminal) -> Result<ExitCode, PipelineE
         Command::Track(arguments) => track::run(&arguments, terminal)?,
         Command::Land(arguments) => land::run(&arguments, terminal)?,
         Command::Map(arguments) => map::run(&arguments, terminal)?,
+        Command::Montecarlo(arguments) => montecarlo::run(&arguments, terminal)?,
         Command::Tumble(arguments) => tumble::run(&arguments, terminal)?,
         Command::Evaluate(arguments) => evaluate::run(&arguments, terminal)?,
         Command::Report(arguments) => report::run(&arguments, terminal)?,

@@ -38,4 +38,12 @@ pub enum EvaluationError {
         /// The truth's folder.
         truth: PathBuf,
     },
+    /// An option of a campaign is out of range.
+    #[error("campaign option {option} {problem}")]
+    Campaign {
+        /// The option.
+        option: &'static str,
+        /// What is wrong with it.
+        problem: String,
+    },
 }

@@ -10,6 +10,7 @@ mod front_end_files;
 mod land;
 mod land_map;
 mod map;
+mod montecarlo;
 mod page;
 mod progress;
 mod reference;
@@ -26,6 +27,7 @@ pub use evaluate::evaluate_result;
 pub use export::{ExportFormat, ExportRequest, export};
 pub use land::{LandRequest, land};
 pub use map::{MapRequest, make_map};
+pub use montecarlo::{MonteCarloOutcome, MonteCarloRequest, montecarlo_landing};
 pub use page::write_page;
 pub use progress::{Progress, Silent};
 pub use reference::scenario_reference;
@@ -36,7 +38,8 @@ pub use tumble::{TumbleRequest, tumble};
 
 // Settings that a caller of the stories chooses.
 pub use crate::dataset::{CameraSource, FrameTimes};
-pub use crate::navigation::landing::{FilterKind, LandingConfig};
+pub use crate::evaluation::{CampaignOptions, FieldOfView};
+pub use crate::navigation::landing::{BiasPrior, FilterKind, ImageRotationUse, LandingConfig, LandmarkStart};
 pub use crate::navigation::landmark::Selector;
 pub use crate::navigation::tumbling::{Estimator, TumblingConfig};
 pub use crate::render::StageTime;

@@ -10,7 +10,7 @@ use std::path::Path;
 /// The head of a result folder.
 #[derive(Debug, Clone, Serialize)]
 pub struct Summary {
-    /// `landing`, `tumbling` or `tracking`.
+    /// `landing`, `tumbling`, `tracking` or `landing-campaign`.
     pub mission: &'static str,
     /// Version of opnav.
     pub opnav_version: &'static str,

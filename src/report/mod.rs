@@ -6,6 +6,8 @@
 //! [`scenario_reference`] lists the keys of a scenario in Markdown.
 
 mod axis;
+mod campaign;
+mod charts;
 mod error;
 mod figures;
 mod mission;
@@ -19,6 +21,7 @@ mod reference_text;
 mod render;
 mod result;
 
+pub use campaign::campaign_sections;
 pub use error::ReportError;
 pub use figures::{environment_table, figure_lines, figure_table, timing_table};
 pub use mission::{MissionReport, mission_section};

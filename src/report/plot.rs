@@ -31,13 +31,13 @@ pub const LINE: RGBColor = RGBColor(31, 78, 121);
 pub const BAND: RGBColor = RGBColor(168, 195, 220);
 /// Burnt orange: a limit or an expectation.
 pub const LIMIT: RGBColor = RGBColor(191, 104, 32);
-const GRID: RGBColor = RGBColor(226, 230, 235);
-const FRAME: RGBColor = RGBColor(140, 149, 160);
-const TEXT: RGBColor = RGBColor(60, 70, 82);
+pub(super) const GRID: RGBColor = RGBColor(226, 230, 235);
+pub(super) const FRAME: RGBColor = RGBColor(140, 149, 160);
+pub(super) const TEXT: RGBColor = RGBColor(60, 70, 82);
 
 /// Units of the drawing in a pixel of the page: the plotter rounds to whole units, which must not show.
-const FINE: u32 = 4;
-const WIDTH: u32 = 860;
+pub(super) const FINE: u32 = 4;
+pub(super) const WIDTH: u32 = 860;
 
 /// What is drawn in a panel, back to front.
 pub enum Layer {
@@ -126,7 +126,7 @@ fn draw_panel(area: &Area<'_>, time: &Axis, panel: &Panel, foot: u32) -> Result<
 }
 
 /// The drawing with a title for screen readers and a size that follows the page.
-fn accessible(svg: &str, title: &str) -> String {
+pub(super) fn accessible(svg: &str, title: &str) -> String {
     let body = svg.find("viewBox").map_or(svg, |start| &svg[start..]);
     let label = maud::html! { title { (title) } }.into_string();
     let (open, rest) = body.split_once('>').unwrap_or((body, ""));

@@ -36,6 +36,9 @@ impl ConsistencyBounds {
 
     /// The value that one normalised error of `degrees_of_freedom` exceeds with probability `1 - confidence` (a gate).
     pub fn gate(degrees_of_freedom: usize, confidence: f64) -> f64 {
+        if degrees_of_freedom == 2 {
+            return -2.0 * (1.0 - confidence).ln();
+        }
         let chi = ChiSquared::new(degrees_of_freedom.max(1) as f64).expect("a positive number of degrees of freedom");
         chi.inverse_cdf(confidence)
     }

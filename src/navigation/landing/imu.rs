@@ -84,6 +84,8 @@ impl ImuIncrement {
         f.fixed_view_mut::<3, 3>(6, 3).copy_from(&(Matrix3::identity() * dt));
         let mut g = SMatrix::<f64, 9, 6>::zeros();
         g.fixed_view_mut::<3, 3>(0, 0).copy_from(&(Matrix3::identity() * dt));
+        g.fixed_view_mut::<3, 3>(3, 0).copy_from(&(by_rotation * (0.5 * dt * dt)));
+        g.fixed_view_mut::<3, 3>(6, 0).copy_from(&(by_rotation * (dt.powi(3) / 6.0)));
         g.fixed_view_mut::<3, 3>(3, 3).copy_from(&(rotation * dt));
         g.fixed_view_mut::<3, 3>(6, 3).copy_from(&(rotation * (0.5 * dt * dt)));
         let white = SMatrix::<f64, 6, 6>::from_diagonal(variances);

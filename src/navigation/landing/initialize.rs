@@ -48,8 +48,18 @@ pub fn with_landmark(
     slot: usize,
     site: &InitializationModel,
 ) -> Option<DescentEstimate> {
+    with_landmark_at_height(estimate, bearing, (slot, 0.0), site)
+}
+
+/// [`with_landmark`] at a mean height of the ground (m) that is not 0.
+pub fn with_landmark_at_height(
+    estimate: &DescentEstimate,
+    bearing: &BearingObservation,
+    (slot, height_m): (usize, f64),
+    site: &InitializationModel,
+) -> Option<DescentEstimate> {
     let z = bearing.direction_in_lander.into_inner();
-    let new = site.kind.point_on_ground(&estimate.state, &z, &site.camera_in_lander_m, 0.0)?;
+    let new = site.kind.point_on_ground(&estimate.state, &z, &site.camera_in_lander_m, height_m)?;
     let relative_m = new.position_in_site_m - estimate.state.lander_in_site_m;
     if relative_m.angle(&-Vector3::z()) > site.ground.largest_off_nadir_rad {
         return None;

@@ -38,7 +38,7 @@ pub use delayed::{triangulated, with_ray};
 pub use error::LandingError;
 pub use files::{write_covariance_csv, write_estimate_csv};
 pub use imu::{GAP_FORCE_SIGMA_M_S2, GAP_RATE_SIGMA_RAD_S, ImuIncrement, ImuRecord, LONGEST_GAP_S};
-pub use initialize::{InitializationModel, initial_estimate, with_landmark, without_landmark};
+pub use initialize::{InitializationModel, initial_estimate, with_landmark, with_landmark_at_height, without_landmark};
 pub use input::{KnownSighting, LandingInput};
 pub use measurement::{BearingObservation, CameraMount, KnownPoint};
 pub use navigate::navigate;

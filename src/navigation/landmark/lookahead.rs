@@ -24,6 +24,25 @@ pub fn posterior_position_variance_m2(view: &Viewpoint, landmark_in_site_m: &Vec
     covariance.fixed_view::<3, 3>(0, 0).trace()
 }
 
+/// What three epochs tell (12×12): two rows of the known landmark and two of the unknown one an epoch, H Φᵏ scaled by
+/// 1/σ_b, columns by the prior σ.
+pub fn stacked_bearings(view: &Viewpoint, landmark_in_site_m: &Vector3<f64>) -> Matrix12 {
+    let sigma = with_landmark(view, landmark_in_site_m).diagonal().map(f64::sqrt) / view.sigma_bearing_rad;
+    let mut stacked = Matrix12::zeros();
+    for epoch in 0..EPOCHS {
+        let time_s = epoch as f64 * view.interval_s;
+        let phi = transition(view, time_s);
+        let lander_m = view.predicted_position_in_site_m(time_s);
+        for (k, (relative_m, unknown)) in
+            [(-lander_m, false), (landmark_in_site_m - lander_m, true)].into_iter().enumerate()
+        {
+            let rows = bearing_rows(&relative_m, unknown) * phi;
+            stacked.fixed_view_mut::<2, 12>(4 * epoch + 2 * k, 0).copy_from(&rows);
+        }
+    }
+    stacked * Matrix12::from_diagonal(&sigma)
+}
+
 /// Covariance with the landmark appended, initialised from its bearing and the ground's height (errors r, v, ψ, p).
 fn with_landmark(view: &Viewpoint, landmark_in_site_m: &Vector3<f64>) -> Matrix12 {
     let relative_m = landmark_in_site_m - view.lander_in_site_m;

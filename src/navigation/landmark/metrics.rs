@@ -1,6 +1,7 @@
 //! The classical observability metrics, the rivals of the depth error.
 
-use super::bearing_matrix;
+use super::lookahead::stacked_bearings;
+use super::{Viewpoint, bearing_matrix};
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A measure of how well one known and one unknown landmark determine the state, on H_{1,1}'s four non-zero singular
@@ -25,10 +26,26 @@ pub fn metric(kind: Metric, lander_in_site_m: &Vector3<f64>, landmark_in_site_m:
     }
     let h = bearing_matrix(&UnitQuaternion::identity(), lander_in_site_m, landmark_in_site_m);
     let mut singular = h.singular_values();
-    singular.as_mut_slice().sort_by(|a, b| b.total_cmp(a));
+    of_singular_values(kind, singular.as_mut_slice(), 4)
+}
+
+/// The same measures on what three epochs tell together: rows H Φᵏ scaled by 1/σ_b, columns by the prior σ. Of the 12
+/// singular values 11 are not 0; the null vector is a turn about the vertical. [`Metric::ClosedForm`] has no such form
+/// and is given as it is.
+pub fn scaled_metric(kind: Metric, view: &Viewpoint, landmark_in_site_m: &Vector3<f64>) -> f64 {
+    if kind == Metric::ClosedForm {
+        return metric(kind, &view.lander_in_site_m, landmark_in_site_m);
+    }
+    let mut singular = stacked_bearings(view, landmark_in_site_m).singular_values();
+    of_singular_values(kind, singular.as_mut_slice(), 11)
+}
+
+/// A metric of the largest `rank` singular values.
+fn of_singular_values(kind: Metric, singular: &mut [f64], rank: usize) -> f64 {
+    singular.sort_by(|a, b| b.total_cmp(a));
     match kind {
-        Metric::SingularValue => singular[3],
-        Metric::Dilution => 1.0 / singular.iter().take(4).map(|s| s.powi(-2)).sum::<f64>(),
-        Metric::Condition | Metric::ClosedForm => singular[3] / singular[0],
+        Metric::SingularValue => singular[rank - 1],
+        Metric::Dilution => 1.0 / singular[..rank].iter().map(|s| s.powi(-2)).sum::<f64>(),
+        Metric::Condition | Metric::ClosedForm => singular[rank - 1] / singular[0],
     }
 }

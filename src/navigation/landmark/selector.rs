@@ -1,6 +1,6 @@
 //! One interface to every way of choosing the unknown landmark.
 
-use super::{Metric, Triangle, Viewpoint, golden_section, metric, posterior_position_variance_m2};
+use super::{Metric, Triangle, Viewpoint, golden_section, metric, posterior_position_variance_m2, scaled_metric};
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
@@ -13,12 +13,22 @@ pub enum Selector {
     /// Least depth error, closed form (Li et al. 2023).
     #[default]
     DepthError,
+    /// Least depth error by golden section, as the paper searches it.
+    DepthErrorSearch,
     /// Largest non-zero smallest singular value of H.
     Svd,
     /// Least geometric dilution of precision.
     Gdop,
     /// Best condition number of H.
     Condition,
+    /// The optimum that the three share, closed form: p* = |r| r_h / |r_h| with r_h the lander's place on the ground.
+    Lambda4,
+    /// As `svd`, on three epochs scaled by the noise and the prior.
+    SvdScaled,
+    /// As `gdop`, on three epochs scaled by the noise and the prior.
+    GdopScaled,
+    /// As `condition`, on three epochs scaled by the noise and the prior.
+    ConditionScaled,
     /// Least position covariance after three epochs, terrain prior included.
     Covariance,
     /// Anywhere within 45° of nadir, uniform in solid angle.
@@ -28,6 +38,40 @@ pub enum Selector {
 }
 
 impl Selector {
+    /// Every selector, in the order of their words.
+    pub const ALL: [Selector; 12] = [
+        Selector::DepthError,
+        Selector::DepthErrorSearch,
+        Selector::Svd,
+        Selector::Gdop,
+        Selector::Condition,
+        Selector::Lambda4,
+        Selector::SvdScaled,
+        Selector::GdopScaled,
+        Selector::ConditionScaled,
+        Selector::Covariance,
+        Selector::Random,
+        Selector::None,
+    ];
+
+    /// Its word on the command line and in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Selector::DepthError => "depth-error",
+            Selector::DepthErrorSearch => "depth-error-search",
+            Selector::Svd => "svd",
+            Selector::Gdop => "gdop",
+            Selector::Condition => "condition",
+            Selector::Lambda4 => "lambda4",
+            Selector::SvdScaled => "svd-scaled",
+            Selector::GdopScaled => "gdop-scaled",
+            Selector::ConditionScaled => "condition-scaled",
+            Selector::Covariance => "covariance",
+            Selector::Random => "random",
+            Selector::None => "none",
+        }
+    }
+
     /// The ideal landmark on the ground plane, in the site frame (m); `None` where the lander is not above the plane,
     /// and always for [`Selector::None`].
     ///
@@ -37,9 +81,14 @@ impl Selector {
         let point_m = match self {
             Selector::None => return None,
             Selector::DepthError => by_triangle(view, Triangle::minimum),
+            Selector::DepthErrorSearch => by_triangle(view, Triangle::minimum_by_search),
             Selector::Svd => by_metric(view, Metric::SingularValue),
             Selector::Gdop => by_metric(view, Metric::Dilution),
             Selector::Condition => by_metric(view, Metric::Condition),
+            Selector::Lambda4 => lambda4_optimum_in_site_m(view),
+            Selector::SvdScaled => by_scaled_metric(view, Metric::SingularValue),
+            Selector::GdopScaled => by_scaled_metric(view, Metric::Dilution),
+            Selector::ConditionScaled => by_scaled_metric(view, Metric::Condition),
             Selector::Covariance => by_covariance(view),
             Selector::Random => view.lander_in_site_m + random_direction(random),
         };
@@ -59,13 +108,26 @@ fn by_triangle(view: &Viewpoint, minimum: impl Fn(&Triangle) -> (f64, f64)) -> V
 }
 
 fn by_metric(view: &Viewpoint, kind: Metric) -> Vector3<f64> {
+    by_search(view, |point_m| metric(kind, &view.lander_in_site_m, point_m))
+}
+
+fn by_scaled_metric(view: &Viewpoint, kind: Metric) -> Vector3<f64> {
+    by_search(view, |point_m| scaled_metric(kind, view, point_m))
+}
+
+/// Golden section over β for the largest merit, in the vertical plane of the velocity.
+fn by_search(view: &Viewpoint, merit: impl Fn(&Vector3<f64>) -> f64) -> Vector3<f64> {
     by_triangle(view, |triangle| {
         let alpha_rad = triangle.path_angle_rad;
-        let cost = |beta_rad: f64| {
-            -metric(kind, &view.lander_in_site_m, &triangle.landmark_in_site_m(view, alpha_rad, beta_rad))
-        };
+        let cost = |beta_rad: f64| -merit(&triangle.landmark_in_site_m(view, alpha_rad, beta_rad));
         (alpha_rad, golden_section(cost, 0.0, PI - alpha_rad, Triangle::EVALUATIONS).0)
     })
+}
+
+/// Maximum of λ4 over the ground: p* = |r| r_h / |r_h|.
+fn lambda4_optimum_in_site_m(view: &Viewpoint) -> Vector3<f64> {
+    let r = view.lander_in_site_m;
+    Vector3::new(r.x, r.y, 0.0).try_normalize(1e-9).unwrap_or(Vector3::x()) * r.norm()
 }
 
 /// Best of two polar grids, about the site and about nadir, with radii in proportion to the height, then refined.
