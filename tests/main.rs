@@ -1,7 +1,6 @@
 //! One test binary with a module a room, so that it links once.
 
 mod architecture;
-#[cfg(any(feature = "render", feature = "vision"))]
 mod bar;
 #[cfg(all(feature = "render", feature = "vision"))]
 mod cli;
@@ -19,6 +18,8 @@ mod map_matching;
 mod observability;
 #[cfg(feature = "render")]
 mod render;
+#[cfg(all(feature = "render", feature = "vision"))]
+mod rendered_landings;
 #[cfg(all(feature = "render", feature = "vision"))]
 mod rendered_sequences;
 mod report;
