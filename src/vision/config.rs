@@ -124,6 +124,9 @@ pub struct RotationConfig {
     pub max_angle_rad: f64,
     /// 1σ of a predicted rotation, rad (default 0.005).
     pub prior_sigma_rad: f64,
+    /// Variance of errors that vary smoothly over the picture, as a share of the noise's (default 0.0007). It grows with
+    /// the square of the translation over the distance: the looks of ground change with the view.
+    pub smooth_error_share: f64,
     /// Seed of the random samples (default 1).
     pub seed: u64,
 }
@@ -138,6 +141,7 @@ impl Default for RotationConfig {
             max_sigma_rad: 0.02,
             max_angle_rad: 1.0,
             prior_sigma_rad: 0.005,
+            smooth_error_share: 0.0007,
             seed: 1,
         }
     }
@@ -155,6 +159,9 @@ pub struct FixedCenterConfig {
     pub rate_gate_rad_s: f64,
     /// …or this fraction of the median, whichever is greater (default 0.2).
     pub rate_gate_ratio: f64,
+    /// Variance of errors that vary smoothly over the picture, as a share of the noise's (default 0.01): the light moves
+    /// over a body that turns.
+    pub smooth_error_share: f64,
 }
 
 impl Default for FixedCenterConfig {
@@ -164,6 +171,7 @@ impl Default for FixedCenterConfig {
             limb_margin_px: 8,
             rate_gate_rad_s: 1f64.to_radians(),
             rate_gate_ratio: 0.2,
+            smooth_error_share: 0.01,
         }
     }
 }
@@ -262,6 +270,8 @@ impl FrontEndConfig {
             ("matcher.max_ratio", m.max_ratio),
             ("klt.min_correlation", k.min_correlation),
             ("rotation.min_inlier_ratio", r.min_inlier_ratio),
+            ("rotation.smooth_error_share", r.smooth_error_share),
+            ("fixed_center.smooth_error_share", c.smooth_error_share),
         ] {
             if !(0.0..=1.0).contains(&value) {
                 return Err(VisionError::OutOfRange { name, value, cure: "it must lie between 0 and 1" });

@@ -5,12 +5,13 @@
 //! not. The centre starts at the centroid of the bright silhouette and is refined over all pairs at once.
 
 use super::center_start::{CenterView, best_start, is_near_side};
-use super::pair_fit::{Loss, Normal, cost, fit, normal_equations, observed_information};
+use super::pair_fit::{Loss, cost, fit, observed_information};
 use super::pair_models::{AboutCenter, WithCenter};
 use super::sight::Sight;
+use super::smooth_error::{normal_without_smooth_error, refine};
 use super::{FixedCenterConfig, PairSolution, PairStatus, PixelMatches, RotationConfig, RotationModel};
 use crate::geometry::{Camera, so3};
-use nalgebra::{Matrix2, Matrix2x3, Matrix3, Matrix3x2, Unit, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix2x3, Matrix3, Matrix3x2, Matrix5, Unit, UnitQuaternion, Vector2, Vector3, Vector5};
 use rayon::prelude::*;
 
 /// A pair of pictures of the body.
@@ -64,7 +65,7 @@ pub fn rotations_about_center(pairs: &[CenteredPair], problem: &CenterProblem) -
         Joint { views: views.iter().collect(), pairs: pairs.to_vec() }.settle(best, problem);
     drop_strays(&mut found, pairs, problem.config);
     solve_again(&mut found, &views, pairs, (center, problem));
-    let solved = views.par_iter().zip(&found).map(|(v, f)| finish(v, *f, &covariance, problem.rotation)).collect();
+    let solved = views.par_iter().zip(&found).map(|(v, f)| finish(v, *f, &covariance, problem)).collect();
     CenterSolution { center_in_camera: center, center_covariance_rad2: covariance, pairs: solved }
 }
 
@@ -140,7 +141,7 @@ pub(super) fn rotation_about_center(
 ) -> PairSolution {
     let view = CenterView::new(pair, problem);
     let found = best_start(&view, *center.0, &view.predicted_starts(), problem.rotation);
-    finish(&view, found, center.1, problem.rotation)
+    finish(&view, found, center.1, problem)
 }
 
 fn moved_to(center: Unit<Vector3<f64>>, found: AboutCenter, view: &CenterView) -> AboutCenter {
@@ -161,10 +162,12 @@ fn refine_center(
     let mut gradient: Vector2<f64> = -off * prior;
     for (view, model) in views.iter().zip(found).filter_map(|(v, f)| f.map(|f| (v, AboutCenter { center, ..f }))) {
         let scale = super::pair_fit::robust_scale::<3, _>(&model, &view.sights, view.widest);
-        let normal = normal_equations(&WithCenter(model), &view.sights, Loss::Truncated(3.0 * scale));
-        let (i, g) = without_rotation(&normal);
-        information += i / scale.powi(2);
-        gradient += g / scale.powi(2);
+        let noise = (problem.config.smooth_error_share, scale);
+        let normal = normal_without_smooth_error(&WithCenter(model), &view.sights, noise);
+        if let Some((i, g)) = normal.and_then(|(i, g)| without_rotation(&i, &g)) {
+            information += i;
+            gradient += g;
+        }
     }
     let covariance = information.try_inverse().unwrap_or_else(Matrix2::identity);
     let step = -(covariance * gradient);
@@ -172,13 +175,13 @@ fn refine_center(
     (Unit::new_normalize(center.into_inner() + basis * step), covariance)
 }
 
-fn without_rotation(normal: &Normal<5>) -> (Matrix2<f64>, Vector2<f64>) {
-    let rr: Matrix3<f64> = normal.information.fixed_view::<3, 3>(0, 0).into_owned();
-    let cr: Matrix2x3<f64> = normal.information.fixed_view::<2, 3>(3, 0).into_owned();
-    let cc: Matrix2<f64> = normal.information.fixed_view::<2, 2>(3, 3).into_owned();
-    let inverse = rr.try_inverse().unwrap_or_else(Matrix3::zeros);
-    let gain = cr * inverse;
-    (cc - gain * cr.transpose(), normal.gradient.fixed_rows::<2>(3) - gain * normal.gradient.fixed_rows::<3>(0))
+/// The centre's normal equations, the rotation eliminated (Schur complement).
+fn without_rotation(information: &Matrix5<f64>, gradient: &Vector5<f64>) -> Option<(Matrix2<f64>, Vector2<f64>)> {
+    let rr: Matrix3<f64> = information.fixed_view::<3, 3>(0, 0).into_owned();
+    let cr: Matrix2x3<f64> = information.fixed_view::<2, 3>(3, 0).into_owned();
+    let cc: Matrix2<f64> = information.fixed_view::<2, 2>(3, 3).into_owned();
+    let gain = cr * rr.try_inverse()?;
+    Some((cc - gain * cr.transpose(), gradient.fixed_rows::<2>(3) - gain * gradient.fixed_rows::<3>(0)))
 }
 
 /// Rotation rate of a pair, rad/s, in the first camera's axes.
@@ -235,8 +238,9 @@ fn finish(
     view: &CenterView,
     found: Option<AboutCenter>,
     center_covariance: &Matrix2<f64>,
-    config: &RotationConfig,
+    problem: &CenterProblem,
 ) -> PairSolution {
+    let config = problem.rotation;
     let refused = |status| PairSolution::failed(status, view.offered);
     let Some(model) = found else {
         return refused(view.failure.unwrap_or(PairStatus::Rejected));
@@ -246,21 +250,24 @@ fn finish(
     if (fitted.inlier_count() as f64) < enough || !is_near_side(&fitted.model, &view.sights) {
         return refused(PairStatus::Rejected);
     }
-    let Some(own) = fitted.covariance else { return refused(PairStatus::Degenerate) };
-    let agreeing: Vec<Sight> =
-        view.sights.iter().zip(&fitted.inliers).filter(|(_, inlier)| **inlier).map(|(s, _)| *s).collect();
-    let full = observed_information(&WithCenter(fitted.model), &agreeing, Loss::Truncated(f64::INFINITY));
+    let share = problem.config.smooth_error_share;
+    let Some(refined) = refine(&fitted, &view.sights, share) else { return refused(PairStatus::Degenerate) };
+    let full = observed_information(
+        &WithCenter(refined.model),
+        &fitted.agreeing(&view.sights),
+        Loss::Truncated(f64::INFINITY),
+    );
     let rr: Matrix3<f64> = full.fixed_view::<3, 3>(0, 0).into_owned();
     let rc: Matrix3x2<f64> = full.fixed_view::<3, 2>(0, 3).into_owned();
     let by_center = rr.try_inverse().unwrap_or_else(Matrix3::zeros) * rc;
-    let covariance = own + by_center * center_covariance * by_center.transpose();
+    let covariance = refined.rotation_covariance_rad2 + by_center * center_covariance * by_center.transpose();
     if covariance.symmetric_eigenvalues().max().sqrt() > config.max_sigma_rad {
         return refused(PairStatus::Degenerate);
     }
     PairSolution {
-        camera_to_from_camera_from: fitted.model.rotation,
+        camera_to_from_camera_from: refined.model.rotation,
         covariance_rad2: covariance,
-        direction_in_to: Unit::try_new(fitted.model.translation(), 1e-12),
+        direction_in_to: Unit::try_new(refined.model.translation(), 1e-12),
         normal_in_from: None,
         inliers: view.spread(&fitted.inliers),
         noise_scale: fitted.scale,

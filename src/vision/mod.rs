@@ -133,6 +133,8 @@ mod sharpen;
 mod sight;
 #[cfg(feature = "vision")]
 mod silhouette;
+#[cfg(feature = "vision")]
+mod smooth_error;
 mod text_table;
 #[cfg(feature = "vision")]
 mod tracks;

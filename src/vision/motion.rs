@@ -2,13 +2,16 @@
 
 use super::RotationModel;
 use super::ground_fit::GroundFit;
-use super::pair_fit::{fit, rotation_covariance};
+use super::pair_fit::fit;
 use super::pair_models::General;
 use super::sight::Sight;
+use super::smooth_error::refine;
 use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
 
 /// Relief shows where the ratio of the variances of its parallax and of the noise, added up over the matches, exceeds this.
 const SHOWING: f64 = 500.0;
+/// By how much the share of smooth errors grows with the square of the translation over the distance.
+const SHARE_BY_VIEW: f64 = 0.25;
 
 /// A motion with its covariance.
 pub(super) struct Motion {
@@ -27,10 +30,10 @@ impl Motion {
     /// Relief is not white noise about a plane: hills are smooth. Where its parallax shows, each point's depth is better
     /// left free, and what the plane would say is not missed. Where it does not show, depths left free would take noise
     /// for parallax.
-    pub(super) fn of(fit: &GroundFit, sights: &[Sight]) -> Option<Motion> {
+    pub(super) fn of(fit: &GroundFit, sights: &[Sight], smooth_error_share: f64) -> Option<Motion> {
         let direction = Unit::try_new(fit.ground.translation, 1e-12);
         let free = direction.filter(|_| relief_over_noise(fit, sights) > SHOWING);
-        free.and_then(|direction| with_free_relief(fit, direction, sights)).or_else(|| {
+        free.and_then(|direction| with_free_relief(fit, direction, (sights, smooth_error_share))).or_else(|| {
             Some(Motion {
                 rotation: fit.ground.rotation,
                 covariance_rad2: fit.rotation_covariance(sights)?,
@@ -60,17 +63,23 @@ fn relief_over_noise(fit: &GroundFit, sights: &[Sight]) -> f64 {
 
 /// The same motion refined on the epipolar constraint, over the matches that agree with the ground: what lies far along
 /// an epipolar line has great leverage on it, and the ground knows how far relief goes.
-fn with_free_relief(fit: &GroundFit, direction: Unit<Vector3<f64>>, sights: &[Sight]) -> Option<Motion> {
+fn with_free_relief(
+    fit: &GroundFit,
+    direction: Unit<Vector3<f64>>,
+    (sights, smooth_error_share): (&[Sight], f64),
+) -> Option<Motion> {
     const WIDEST_SIGMA: f64 = 4.0;
     let inside = fit.agreeing(sights);
     let start = General { rotation: fit.ground.rotation, direction };
     let refined = self::fit(start, &inside, WIDEST_SIGMA * fit.scale());
     let mut flags = refined.inliers.iter();
     let inliers = fit.inliers.iter().map(|i| *i && *flags.next().unwrap_or(&false)).collect();
+    let share = smooth_error_share + SHARE_BY_VIEW * fit.ground.translation.norm_squared();
+    let smoothed = refine(&refined, &inside, share)?;
     Some(Motion {
-        rotation: refined.model.rotation,
-        covariance_rad2: rotation_covariance(&refined, &inside)?,
-        direction: Some(refined.model.direction),
+        rotation: smoothed.model.rotation,
+        covariance_rad2: smoothed.rotation_covariance_rad2,
+        direction: Some(smoothed.model.direction),
         normal: fit.ground.normal,
         inliers,
         noise_scale: refined.scale,

@@ -1,6 +1,5 @@
 //! Robust least squares over the matches of a picture pair, for any model that is a 3×3 matrix with derivatives.
 
-use super::clusters::{cells, covariance_of_rotation};
 use super::sight::Sight;
 use nalgebra::{Matrix3, SMatrix, SVector, Vector2};
 
@@ -91,7 +90,7 @@ fn transfer_whitening(matrix: &Matrix3<f64>, sight: &Sight, p: &nalgebra::Vector
 
 /// Residual, its derivative at fixed weights (which makes the information), and the half gradient of its square (which
 /// knows that the weights move too; near an epipole that counts, and yet is no information).
-fn linearized<const N: usize>(
+pub(super) fn linearized<const N: usize>(
     relation: Relation,
     (matrix, derivatives): &(Matrix3<f64>, [Matrix3<f64>; N]),
     sight: &Sight,
@@ -207,6 +206,11 @@ impl<const N: usize, M> PairFit<N, M> {
     pub(super) fn inlier_count(&self) -> usize {
         self.inliers.iter().filter(|i| **i).count()
     }
+
+    /// The matches that agree.
+    pub(super) fn agreeing(&self, sights: &[Sight]) -> Vec<Sight> {
+        sights.iter().zip(&self.inliers).filter(|(_, inlier)| **inlier).map(|(s, _)| *s).collect()
+    }
 }
 
 /// A residual beyond this many σ is an outlier (one, two residuals a match: the tail is below 0.3 %).
@@ -286,16 +290,4 @@ fn finish<const N: usize, M: PairModel<N>>(model: M, sights: &[Sight], scale: f6
     let variance = if freedom > 0.0 { inside / freedom } else { f64::INFINITY };
     let covariance = information.cholesky().filter(|_| variance.is_finite()).map(|c| c.inverse() * variance.max(9e-4));
     PairFit { model, covariance, inliers, scale: variance.sqrt().max(0.03) }
-}
-
-/// Covariance (rad²) of a fit's rotation (its first three parameters), neighbouring matches erring together.
-pub(super) fn rotation_covariance<const N: usize, M: PairModel<N>>(
-    fit: &PairFit<N, M>,
-    sights: &[Sight],
-) -> Option<Matrix3<f64>> {
-    let agreeing: Vec<Sight> = sights.iter().zip(&fit.inliers).filter(|(_, i)| **i).map(|(s, _)| *s).collect();
-    let linear = fit.model.matrix();
-    let scores: Vec<SVector<f64, N>> =
-        agreeing.iter().map(|s| linearized(M::RELATION, &linear, s).2 / fit.scale.powi(2)).collect();
-    covariance_of_rotation(&fit.covariance?, &scores, &cells(&agreeing))
 }

@@ -131,7 +131,7 @@ fn judge(fits: &Fits, sights: &[Sight], hints: &PairHints, config: &RotationConf
         return refused(PairStatus::Rejected);
     }
     let motion = match choose(fits, sights, hints, config) {
-        Ok(chosen) => Motion::of(&chosen.fit, sights),
+        Ok(chosen) => Motion::of(&chosen.fit, sights, config.smooth_error_share),
         Err(status) => return refused(status),
     };
     let Some(motion) = motion.filter(|m| is_determined(&m.covariance_rad2, config)) else {

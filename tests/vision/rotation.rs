@@ -1,9 +1,11 @@
 //! The rotation of a pair from synthetic matches.
 
 use super::bearings::*;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use opnav::geometry::so3;
+use opnav::stats::random_stream;
 use opnav::vision::*;
+use rand_distr::{Distribution, StandardNormal};
 
 fn solve(scene: &Scene, pair: &MatchedPair, hints: &PairHints) -> PairSolution {
     let sigma = vec![0.3; pair.from_px.len()];
@@ -163,4 +165,37 @@ fn turning_both_pictures_conjugates_the_rotation() {
 fn too_few_matches_are_too_few() {
     let scene = descent(15, 0.1, 1);
     assert_eq!(solve(&scene, &scene.matches(0.1, 0.0, 1), &PairHints::default()).status, PairStatus::FewMatches);
+}
+
+/// Mean normalised error squared over three where the matches' errors vary smoothly over the picture besides their noise,
+/// with coefficients of `share` of the noise's variance.
+fn nees_with_smooth_errors(share: f64) -> f64 {
+    const TRIALS: u64 = 40;
+    const NOISE_PX: f64 = 0.1;
+    let mut sum = 0.0;
+    for seed in 0..TRIALS {
+        let scene = ellipsoid(camera(), 500, &Vector3::new(0.02, 0.08, 0.03), seed);
+        let mut pair = scene.matches(NOISE_PX, 0.0, seed);
+        let mut random = random_stream(seed, "smooth errors", 0);
+        let mut draw = || -> f64 { StandardNormal.sample(&mut random) };
+        let field: [Vector2<f64>; 6] =
+            std::array::from_fn(|_| Vector2::new(draw(), draw()) * NOISE_PX * (2.0 * share).sqrt());
+        for (from, to) in pair.from_px.iter().zip(&mut pair.to_px) {
+            let p = (from - Vector2::repeat(511.5)) / 180.0;
+            let modes = [1.0, p.x, p.y, p.x * p.y, 0.7 * (p.x * p.x - 1.0), 0.7 * (p.y * p.y - 1.0)];
+            *to += field.iter().zip(modes).map(|(f, m)| f * m).sum::<Vector2<f64>>();
+        }
+        let solution = solve(&scene, &pair, &PairHints::default());
+        let d = so3::log(&(scene.rotation * solution.camera_to_from_camera_from.inverse()));
+        sum += d.dot(&(solution.covariance_rad2.try_inverse().unwrap() * d)) / 3.0;
+    }
+    sum / TRIALS as f64
+}
+
+#[test]
+fn errors_that_vary_smoothly_are_in_the_covariance_up_to_what_pictures_show() {
+    let (none, usual, absurd) =
+        (nees_with_smooth_errors(0.0), nees_with_smooth_errors(0.003), nees_with_smooth_errors(0.3));
+    assert!((0.5..1.4).contains(&none) && (0.6..1.6).contains(&usual), "{none}, {usual}");
+    assert!(absurd > 3.0, "{absurd}");
 }

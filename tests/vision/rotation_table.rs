@@ -159,7 +159,13 @@ pub fn table(trials: u64) -> impl Iterator<Item = Vec<Bar>> {
 }
 
 #[test]
+fn rotations_of_a_few_pairs_are_near_the_floor() {
+    let parts = KINDS.iter().map(|kind| Outcome::of(kind, NOISE_PX[1], FEWEST as u64).bars(kind, 1));
+    check_table("rotation of a few pairs", parts);
+}
+
+#[test]
 #[ignore = "minutes long: run by `make accuracy`"]
-pub fn accuracy_of_a_pairs_rotation() {
+fn accuracy_of_a_pairs_rotation() {
     check_table("rotation of a pair, 200 matches, 20 % of them wrong", table(200));
 }

@@ -41,7 +41,7 @@ fn solve(sequence: &Sequence, guess_off_rad: f64) -> CenterSolution {
     let problem = CenterProblem {
         camera: &narrow(),
         center_guess: Unit::new_normalize(guess),
-        config: &FixedCenterConfig::default(),
+        config: &FixedCenterConfig { smooth_error_share: 0.0, ..FixedCenterConfig::default() },
         rotation: &RotationConfig::default(),
     };
     rotations_about_center(&pairs, &problem)
