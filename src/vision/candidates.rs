@@ -23,13 +23,15 @@ pub(super) struct Ranked {
 pub(super) struct Fits {
     /// Motions with a translation, the likeliest first.
     pub(super) grounds: Vec<Ranked>,
-    turn: Option<PairFit<3, Turn>>,
+    turn: Option<UnitQuaternion<f64>>,
 }
 
 /// Matches used to bring starts near; they are refined on all.
 const SCREENING: usize = 200;
 /// Motions whose rotations differ by less are the same, rad.
 const SAME_RAD: f64 = 1e-4;
+/// A start that costs so much more than the best on the few matches cannot be its rival on all.
+const HOPELESS: f64 = 150.0;
 /// A rival is clearly worse beyond this many σ.
 const CLEAR_SIGMA: f64 = 3.0;
 
@@ -48,16 +50,27 @@ impl Fits {
         starts.extend(motions.iter().filter(|m| small(&m.rotation)).filter_map(plane_of));
         starts.retain(|g| small(&g.rotation) && is_visible(g, sights));
         let turn = hints.camera_to_from_camera_from.or(homography.and_then(nearest_turn));
-        Fits { grounds: ranked(&starts, sights, widest), turn: turn.map(|q| fit(Turn(q), sights, widest)) }
+        Fits { grounds: ranked(&starts, sights, widest), turn }
     }
 
     /// The pure turn, where a translation explains the matches no better than its parameters by chance (Schwarz 1978).
-    pub(super) fn turn_alone(&self, sights: &[Sight], enough: usize) -> Option<&PairFit<3, Turn>> {
+    pub(super) fn turn_alone(&self, (sights, widest): (&[Sight], f64), enough: usize) -> Option<PairFit<3, Turn>> {
+        let few = thinned(sights);
+        let near = fit(Turn(self.turn?), &few, widest);
+        if !self.is_needless(&near, &few) {
+            return None;
+        }
+        let turn = fit(near.model, sights, widest);
+        (turn.inlier_count() >= enough && self.is_needless(&turn, sights)).then_some(turn)
+    }
+
+    /// Whether a translation explains the matches no better than a turn.
+    fn is_needless(&self, turn: &PairFit<3, Turn>, sights: &[Sight]) -> bool {
         const MORE_PARAMETERS: f64 = 5.0;
-        let turn = self.turn.as_ref().filter(|t| t.inlier_count() >= enough)?;
-        let cost: f64 = without_translation(turn, sights).costs(sights).iter().sum();
+        let total = |fit: &GroundFit| fit.costs(sights).iter().sum::<f64>();
         let allowance = MORE_PARAMETERS * (sights.len() as f64).ln();
-        self.grounds.first().is_none_or(|best| cost < best.cost + allowance).then_some(turn)
+        let alone = total(&without_translation(turn, sights));
+        self.grounds.first().is_none_or(|best| alone < total(&best.fit) + allowance)
     }
 
     /// The likeliest motion, then those with another rotation that do not explain the matches clearly worse.
@@ -80,25 +93,35 @@ impl Fits {
 
 /// Grounds fitted from all starts, each once, the likeliest first; the twins of the likeliest are starts too.
 fn ranked(starts: &[Ground], sights: &[Sight], widest: f64) -> Vec<Ranked> {
-    let mut all: Vec<Ranked> = Vec::with_capacity(starts.len() + 1);
-    starts.iter().for_each(|start| add(&mut all, start, sights, widest));
-    let best = all.iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
-    let twins = best.map(|r| usac::planes(&r.fit.ground.homography())).unwrap_or_default();
+    let few = thinned(sights);
+    let mut near: Vec<Ranked> = Vec::with_capacity(starts.len() + 1);
+    starts.iter().for_each(|start| add(&mut near, start, (&few, widest), 3));
+    let twins = near.iter().min_by(by_cost).map(|r| usac::planes(&r.fit.ground.homography())).unwrap_or_default();
     let twins = twins.iter().map(ground_of).filter(|g| is_visible(g, sights));
-    twins.for_each(|start| add(&mut all, &start, sights, widest));
-    all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    twins.for_each(|start| add(&mut near, &start, (&few, widest), 3));
+    near.sort_by(by_cost);
+    let hopeless = near.first().map_or(0.0, |best| best.cost + HOPELESS);
+    let mut all = Vec::with_capacity(near.len());
+    near.iter().filter(|r| r.cost < hopeless).for_each(|r| add(&mut all, &r.fit.ground, (sights, widest), 4));
+    all.sort_by(by_cost);
     all
 }
 
-/// Fits a ground, first on a few matches; nothing is added where that is one of those that are known.
-fn add(all: &mut Vec<Ranked>, start: &Ground, sights: &[Sight], widest: f64) {
+fn by_cost<R: std::borrow::Borrow<Ranked>>(a: &R, b: &R) -> std::cmp::Ordering {
+    a.borrow().cost.total_cmp(&b.borrow().cost)
+}
+
+fn thinned(sights: &[Sight]) -> Vec<Sight> {
+    sights.iter().step_by(sights.len().div_ceil(SCREENING)).copied().collect()
+}
+
+/// Fits a ground; nothing is added where that is one of those that are known.
+fn add(all: &mut Vec<Ranked>, start: &Ground, (sights, widest): (&[Sight], f64), rounds: usize) {
     let known = |g: &Ground| all.iter().any(|r| r.fit.ground.rotation.angle_to(&g.rotation) < SAME_RAD);
     if known(start) {
         return;
     }
-    let few: Vec<Sight> = sights.iter().step_by(sights.len().div_ceil(SCREENING)).copied().collect();
-    let near = fit_ground(start, &few, widest, 3).ground;
-    let fit = fit_ground(&near, sights, widest, 4);
+    let fit = fit_ground(start, sights, widest, rounds);
     if !known(&fit.ground) {
         let costs = fit.costs(sights);
         all.push(Ranked { fit, cost: costs.iter().sum(), costs });

@@ -7,7 +7,6 @@
 use super::center_start::{CenterView, best_start, is_near_side};
 use super::pair_fit::{Loss, cost, fit, observed_information};
 use super::pair_models::{AboutCenter, WithCenter};
-use super::sight::Sight;
 use super::smooth_error::{normal_without_smooth_error, refine};
 use super::{FixedCenterConfig, PairSolution, PairStatus, PixelMatches, RotationConfig, RotationModel};
 use crate::geometry::{Camera, so3};

@@ -60,8 +60,8 @@ impl GroundFit {
         let mut scores = Vec::with_capacity(agreeing.len());
         for sight in &agreeing {
             let evidence = self.ground.evidence(&axes, sight)?;
-            information += evidence.information;
-            scores.push(evidence.score);
+            information += evidence.information();
+            scores.push(evidence.score());
         }
         if self.ground.relief_variance <= 0.0 {
             hold_relief(&mut information);
@@ -118,7 +118,7 @@ fn score(start: Ground, sights: &[Sight], inliers: &[bool]) -> Ground {
         let gain = sums.cost;
         ground = next;
         sums = self::sums(&ground, sights, inliers);
-        if gain - sums.cost < 1e-3 {
+        if gain - sums.cost < 1e-2 {
             break;
         }
     }
@@ -146,8 +146,8 @@ fn sums(ground: &Ground, sights: &[Sight], inliers: &[bool]) -> Sums {
     for (sight, _) in sights.iter().zip(inliers).filter(|(_, inlier)| **inlier) {
         let Some(evidence) = ground.evidence(&axes, sight) else { continue };
         sums.cost += evidence.cost;
-        sums.score += evidence.score;
-        sums.information += evidence.information;
+        sums.score += evidence.score();
+        sums.information += evidence.information();
     }
     sums
 }

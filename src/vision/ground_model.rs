@@ -56,14 +56,24 @@ pub(super) struct Prediction {
     depth: f64,
 }
 
-/// What a match says about the parameters.
+/// What a match says about the parameters, as whitened rows: two of the mean, three of the covariance.
 pub(super) struct Evidence {
     /// `-2 ln` of the likelihood, without its constant.
     pub(super) cost: f64,
+    rows: SMatrix<f64, 5, PARAMETERS>,
+    residual: SVector<f64, 5>,
+}
+
+impl Evidence {
     /// Derivative of the log-likelihood.
-    pub(super) score: Parameters,
+    pub(super) fn score(&self) -> Parameters {
+        self.rows.tr_mul(&self.residual)
+    }
+
     /// Expected information.
-    pub(super) information: Information,
+    pub(super) fn information(&self) -> Information {
+        self.rows.tr_mul(&self.rows)
+    }
 }
 
 impl Ground {
@@ -140,41 +150,31 @@ impl Ground {
 
     /// What a match says; `None` where the plane lies behind the second camera.
     pub(super) fn evidence(&self, axes: &Axes, sight: &Sight) -> Option<Evidence> {
+        const H: f64 = std::f64::consts::FRAC_1_SQRT_2;
         let seen = self.predict(&axes.homography, sight)?;
-        let (g, v) = (seen.by_relief, self.relief_variance);
-        let covariance = self.covariance(&seen);
-        let inverse = covariance.try_inverse()?;
-        let whitening = inverse.cholesky()?.l().transpose();
-        let (u, h) = (inverse * seen.residual, inverse * g);
-        let (gu, gh) = (g.dot(&u), g.dot(&h));
-        let by_covariance = (u * gu - h) * v;
-        let by_noise = inverse * seen.nominal;
-        let mut evidence = Evidence {
-            cost: seen.residual.dot(&u) + covariance.determinant().ln(),
-            score: Parameters::zeros(),
-            information: Information::zeros(),
-        };
-        // Rows whose squares add up to the information of the geometry: mean (2), direction of relief (2), its size (1).
-        let mut rows = SMatrix::<f64, 5, GEOMETRY>::zeros();
-        let nominal_h = by_noise * h;
+        let (whitening, ln_determinant) = whitening(&self.covariance(&seen));
+        let (z, g) = (whitening * seen.residual, whitening * seen.by_relief);
+        // Half the inner product of symmetric matrices, as that of (m11, √2 m12, m22) / √2.
+        let mut rows = SMatrix::<f64, 5, PARAMETERS>::zeros();
         for (j, (image, turn)) in self.derivatives(&seen, sight, axes).iter().enumerate() {
-            evidence.score[j] = image.dot(&u) + turn.dot(&by_covariance);
-            rows.fixed_view_mut::<2, 1>(0, j).copy_from(&(whitening * image));
-            rows.fixed_view_mut::<2, 1>(2, j).copy_from(&(whitening * turn * (v * gh.sqrt())));
-            rows[(4, j)] = v * h.dot(turn);
-            evidence.information[(j, RELIEF)] = gh * rows[(4, j)];
-            evidence.information[(j, NOISE)] = v * turn.dot(&nominal_h);
+            let (mean, t) = (whitening * image, whitening * turn * self.relief_variance);
+            let column = [mean.x, mean.y, 2.0 * H * g.x * t.x, g.x * t.y + g.y * t.x, 2.0 * H * g.y * t.y];
+            rows.set_column(j, &SVector::from(column));
         }
-        evidence.score[RELIEF] = 0.5 * (gu * gu - gh);
-        evidence.score[NOISE] = 0.5 * (u.dot(&(seen.nominal * u)) - by_noise.trace());
-        let geometry = rows.tr_mul(&rows);
-        evidence.information.fixed_view_mut::<GEOMETRY, GEOMETRY>(0, 0).copy_from(&geometry);
-        evidence.information[(RELIEF, RELIEF)] = 0.5 * gh * gh;
-        evidence.information[(RELIEF, NOISE)] = 0.5 * h.dot(&(seen.nominal * h));
-        evidence.information[(NOISE, NOISE)] = 0.5 * (by_noise * by_noise).trace();
-        evidence.information.fill_lower_triangle_with_upper_triangle();
-        Some(evidence)
+        let noise = whitening * seen.nominal * whitening.transpose();
+        rows.set_column(RELIEF, &SVector::from([0.0, 0.0, H * g.x * g.x, g.x * g.y, H * g.y * g.y]));
+        rows.set_column(NOISE, &SVector::from([0.0, 0.0, H * noise.m11, noise.m12, H * noise.m22]));
+        let residual = SVector::from([z.x, z.y, H * (z.x * z.x - 1.0), z.x * z.y, H * (z.y * z.y - 1.0)]);
+        Some(Evidence { cost: z.norm_squared() + ln_determinant, rows, residual })
     }
+}
+
+/// `W` with `W S Wᵀ = 1`, and the logarithm of the determinant of `S`.
+pub(super) fn whitening(s: &Matrix2<f64>) -> (Matrix2<f64>, f64) {
+    let a = s.m11.sqrt();
+    let b = s.m12 / a;
+    let c = (s.m22 - b * b).max(1e-300).sqrt();
+    (Matrix2::new(1.0 / a, 0.0, -b / (a * c), 1.0 / c), 2.0 * (a * c).ln())
 }
 
 /// Matrices of a ground that all its matches share.
@@ -233,8 +233,8 @@ mod tests {
             let step = [1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-6, 1e-6, 1e-8, 1e-5][j];
             let d = Parameters::ith(j, step);
             let numeric = -(cost(&ground().moved(&d), &sight) - cost(&ground().moved(&-d), &sight)) / (4.0 * step);
-            let off = (numeric - evidence.score[j]).abs();
-            assert!(off < 1e-5 * evidence.score[j].abs() + 1e-3, "{j}: {numeric} against {}", evidence.score[j]);
+            let off = (numeric - evidence.score()[j]).abs();
+            assert!(off < 1e-5 * evidence.score()[j].abs() + 1e-3, "{j}: {numeric} against {}", evidence.score()[j]);
         }
     }
 
@@ -249,8 +249,8 @@ mod tests {
             let noise = factor * Vector2::from_fn(|_, _| -> f64 { StandardNormal.sample(&mut random) });
             let here = Sight { to: sight().to - seen.residual + noise, ..sight() };
             let evidence = model.evidence(&axes, &here).expect("ahead");
-            spread += evidence.score.component_mul(&evidence.score);
-            information += evidence.information.diagonal();
+            spread += evidence.score().component_mul(&evidence.score());
+            information += evidence.information().diagonal();
         }
         spread.component_div(&information).mean()
     }

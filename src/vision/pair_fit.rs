@@ -84,8 +84,7 @@ fn transfer_whitening(matrix: &Matrix3<f64>, sight: &Sight, p: &nalgebra::Vector
     let projection = nalgebra::Matrix2x3::new(1.0, 0.0, -p.x / p.z, 0.0, 1.0, -p.y / p.z) / p.z;
     let by_from = projection * matrix.fixed_columns::<2>(0);
     let covariance = sight.to_covariance + by_from * sight.from_covariance * by_from.transpose();
-    let factor = covariance.cholesky().map(|c| c.l()).unwrap_or_else(nalgebra::Matrix2::identity);
-    factor.try_inverse().unwrap_or_else(nalgebra::Matrix2::identity)
+    super::ground_model::whitening(&covariance).0
 }
 
 /// Residual, its derivative at fixed weights (which makes the information), and the half gradient of its square (which

@@ -95,7 +95,7 @@ pub fn relative_rotation(
     let essential = usac::essential(&usable, focal_px, config)?;
     let widest = config.threshold_px * 2.0 / median(matches.sigma_px);
     let fits = Fits::new(&usable, widest, (homography.as_ref(), essential.as_ref()), (hints, config));
-    let mut solution = judge(&fits, &usable, hints, config);
+    let mut solution = judge(&fits, (&usable, widest), (hints, config));
     solution.inliers = spread(&solution.inliers, all.iter().map(Option::is_some));
     Ok(solution)
 }
@@ -116,11 +116,15 @@ fn is_mirror_image(h: &Matrix3<f64>, sights: &[Sight], focal_px: f64, config: &R
 }
 
 /// Chooses a motion, then holds it against every gate.
-fn judge(fits: &Fits, sights: &[Sight], hints: &PairHints, config: &RotationConfig) -> PairSolution {
+fn judge(
+    fits: &Fits,
+    (sights, widest): (&[Sight], f64),
+    (hints, config): (&PairHints, &RotationConfig),
+) -> PairSolution {
     let enough = (config.min_inlier_ratio * sights.len() as f64).max(config.min_matches as f64) as usize;
-    if let Some(turn) = fits.turn_alone(sights, enough) {
+    if let Some(turn) = fits.turn_alone((sights, widest), enough) {
         let refused = |status| PairSolution { inliers: turn.inliers.clone(), ..PairSolution::failed(status, 0) };
-        return judge_turn(turn, sights, config).unwrap_or_else(refused);
+        return judge_turn(&turn, sights, config).unwrap_or_else(refused);
     }
     let Some(best) = fits.grounds.first() else {
         return PairSolution::failed(PairStatus::Degenerate, sights.len());
