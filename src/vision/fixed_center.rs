@@ -7,10 +7,10 @@
 use super::center_start::{CenterView, best_start, is_near_side};
 use super::pair_fit::{Loss, cost, fit, observed_information};
 use super::pair_models::{AboutCenter, WithCenter};
-use super::smooth_error::{normal_without_smooth_error, refine};
+use super::smooth_error::{normal_with_spread, refine};
 use super::{FixedCenterConfig, PairSolution, PairStatus, PixelMatches, RotationConfig, RotationModel};
 use crate::geometry::{Camera, so3};
-use nalgebra::{Matrix2, Matrix2x3, Matrix3, Matrix3x2, Matrix5, Unit, UnitQuaternion, Vector2, Vector3, Vector5};
+use nalgebra::{Matrix2, Matrix2x3, Matrix2x5, Matrix3, Matrix3x2, Matrix5, Unit, UnitQuaternion, Vector2, Vector3};
 use rayon::prelude::*;
 
 /// A pair of pictures of the body.
@@ -147,7 +147,8 @@ fn moved_to(center: Unit<Vector3<f64>>, found: AboutCenter, view: &CenterView) -
     fit(AboutCenter { center, ..found }, &view.sights, view.widest).model
 }
 
-/// Newton step of the centre over all solved pairs, their rotations eliminated (Schur complement).
+/// Newton step of the centre over all solved pairs, their rotations eliminated (Schur complement); the covariance is that
+/// of the step where the matches' errors vary smoothly over the picture besides their noise.
 fn refine_center(
     views: &[&CenterView],
     found: &[Option<AboutCenter>],
@@ -158,29 +159,32 @@ fn refine_center(
     let basis = so3::tangent_basis(&center);
     let off = basis.transpose() * (problem.center_guess.into_inner() - center.into_inner());
     let mut information = Matrix2::identity() * prior;
+    let mut spread = information;
     let mut gradient: Vector2<f64> = -off * prior;
     for (view, model) in views.iter().zip(found).filter_map(|(v, f)| f.map(|f| (v, AboutCenter { center, ..f }))) {
         let scale = super::pair_fit::robust_scale::<3, _>(&model, &view.sights, view.widest);
         let noise = (problem.config.smooth_error_share, scale);
-        let normal = normal_without_smooth_error(&WithCenter(model), &view.sights, noise);
-        if let Some((i, g)) = normal.and_then(|(i, g)| without_rotation(&i, &g)) {
-            information += i;
-            gradient += g;
+        let (all, slope, slope_spread) = normal_with_spread(&WithCenter(model), &view.sights, noise);
+        if let Some(by_center) = without_rotation(&all) {
+            information += by_center * all * by_center.transpose();
+            spread += by_center * slope_spread * by_center.transpose();
+            gradient += by_center * slope;
         }
     }
-    let covariance = information.try_inverse().unwrap_or_else(Matrix2::identity);
-    let step = -(covariance * gradient);
+    let inverse = information.try_inverse().unwrap_or_else(Matrix2::identity);
+    let step = -(inverse * gradient);
     let step = step * (0.05 / step.norm().max(0.05));
-    (Unit::new_normalize(center.into_inner() + basis * step), covariance)
+    (Unit::new_normalize(center.into_inner() + basis * step), inverse * spread * inverse)
 }
 
-/// The centre's normal equations, the rotation eliminated (Schur complement).
-fn without_rotation(information: &Matrix5<f64>, gradient: &Vector5<f64>) -> Option<(Matrix2<f64>, Vector2<f64>)> {
+/// The centre's part of the unknowns of rotation and centre once the rotation follows the centre (Schur complement).
+fn without_rotation(information: &Matrix5<f64>) -> Option<Matrix2x5<f64>> {
     let rr: Matrix3<f64> = information.fixed_view::<3, 3>(0, 0).into_owned();
     let cr: Matrix2x3<f64> = information.fixed_view::<2, 3>(3, 0).into_owned();
-    let cc: Matrix2<f64> = information.fixed_view::<2, 2>(3, 3).into_owned();
-    let gain = cr * rr.try_inverse()?;
-    Some((cc - gain * cr.transpose(), gradient.fixed_rows::<2>(3) - gain * gradient.fixed_rows::<3>(0)))
+    let mut by_center = Matrix2x5::zeros();
+    by_center.fixed_columns_mut::<3>(0).copy_from(&-(cr * rr.try_inverse()?));
+    by_center.fixed_columns_mut::<2>(3).copy_from(&Matrix2::identity());
+    Some(by_center)
 }
 
 /// Rotation rate of a pair, rad/s, in the first camera's axes.

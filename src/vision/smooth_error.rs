@@ -60,18 +60,27 @@ pub(super) fn refine<const N: usize, M: PairModel<N>>(
     Some(Refined { model, rotation_covariance_rad2 })
 }
 
-/// Information and gradient of a motion, its smooth error eliminated, over matches within 3σ; `scale` is the noise over
-/// the nominal one.
-pub(super) fn normal_without_smooth_error<const N: usize, M: PairModel<N>>(
+/// Information and gradient of a motion as if all errors were white, and the covariance of that gradient, smooth errors
+/// included; over matches within 3σ, `scale` being the noise over the nominal one.
+pub(super) fn normal_with_spread<const N: usize, M: PairModel<N>>(
     model: &M,
     sights: &[Sight],
     (share, scale): (f64, f64),
-) -> Option<(SMatrix<f64, N, N>, SVector<f64, N>)> {
+) -> (SMatrix<f64, N, N>, SVector<f64, N>, SMatrix<f64, N, N>) {
     let matrix = model.matrix().0;
     let near = |s: &&Sight| residual(M::RELATION, &matrix, s).norm() < 3.0 * scale;
     let inside: Vec<Sight> = sights.iter().filter(near).copied().collect();
     let sums = Sums::of(model, &inside, (&Places::of(&inside), scale));
-    sums.eliminated(share.max(LEAST_SHARE)).map(|left| (left.information, left.gradient))
+    let mut spread = sums.motion;
+    for (i, column) in sums.mixed.column_iter().enumerate() {
+        spread += column * column.transpose() * variance(i, share);
+    }
+    (sums.motion, sums.motion_gradient, spread)
+}
+
+/// Variance of a coefficient over that of the noise.
+fn variance(coefficient: usize, share: f64) -> f64 {
+    if coefficient % MODES < LOW_MODES { share } else { 0.5 * share }
 }
 
 /// Where the matches lie in the first picture.
@@ -150,9 +159,8 @@ impl<const N: usize> Sums<N> {
         let mut information = self.coefficients;
         let mut ln_determinant = 0.0;
         for i in 0..COEFFICIENTS {
-            let variance = if i % MODES < LOW_MODES { share } else { 0.5 * share };
-            information[(i, i)] += 1.0 / variance;
-            ln_determinant += variance.ln();
+            information[(i, i)] += 1.0 / variance(i, share);
+            ln_determinant += variance(i, share).ln();
         }
         let factor = information.cholesky()?;
         let gain = factor.solve(&self.mixed.transpose());
