@@ -8,9 +8,13 @@ mod descent;
 mod extras;
 #[path = "landing/flight.rs"]
 mod flight;
+#[path = "landing/in_place.rs"]
+mod in_place;
 #[path = "landing/linear.rs"]
 mod linear;
 #[path = "landing/monte_carlo.rs"]
 mod monte_carlo;
 #[path = "landing/pixels.rs"]
 mod pixels;
+#[path = "landing/speed.rs"]
+mod speed;

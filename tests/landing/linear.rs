@@ -5,17 +5,17 @@ use nalgebra::{DVector, Isometry3, Matrix2, SMatrix, SVector, Unit, UnitQuaterni
 use opnav::dataset::{ImuNoise, ImuSample};
 use opnav::geometry::so3::{exp, log, tangent_basis};
 use opnav::geometry::{Camera, Distortion, Manifold, central_difference};
-use opnav::navigation::filter::{Gate, Innovation, correction};
+use opnav::navigation::filter::Gate;
 use opnav::navigation::landing::{
     BearingObservation, CameraMount, Core, CorrectionModel, DescentEstimate, DescentState, FilterKind, ImuBiases,
-    ImuIncrement, ImuRecord, KnownPoint, Planet, UnknownLandmark, correct, innovation, predict,
+    ImuIncrement, ImuRecord, UnknownLandmark, innovation, predict,
 };
 use opnav::vision::TrackObservation;
 
-const KINDS: [FilterKind; 2] = [FilterKind::Hybrid, FilterKind::Standard];
+pub const KINDS: [FilterKind; 2] = [FilterKind::Hybrid, FilterKind::Standard];
 const CAMERA_IN_LANDER_M: Vector3<f64> = Vector3::new(1.0, -2.0, 0.5);
 
-fn state() -> DescentState {
+pub fn state() -> DescentState {
     let now = truth(60.0);
     DescentState {
         lander_in_site_m: now.position_m,
@@ -26,7 +26,7 @@ fn state() -> DescentState {
     }
 }
 
-fn increment() -> ImuIncrement {
+pub fn increment() -> ImuIncrement {
     let mut increment = exact_increment(&truth(60.0), &truth(64.0), 4.0);
     increment.before_from_after *= exp(&Vector3::new(0.05, 0.02, -0.1));
     increment
@@ -34,7 +34,7 @@ fn increment() -> ImuIncrement {
 
 /// A state with its error coordinates written out a second time, as the design defines them.
 #[derive(Clone)]
-struct Chart(FilterKind, DescentState);
+pub struct Chart(pub FilterKind, pub DescentState);
 
 impl Manifold<12> for Chart {
     fn plus(&self, d: &SVector<f64, 12>) -> Self {
@@ -61,7 +61,7 @@ impl Manifold<12> for Chart {
     }
 }
 
-fn moved(state: &DescentState, increment: &ImuIncrement) -> DescentState {
+pub fn moved(state: &DescentState, increment: &ImuIncrement) -> DescentState {
     let estimate = DescentEstimate { state: state.clone(), covariance: nalgebra::DMatrix::zeros(12, 12) };
     predict(estimate, increment, &PLANET, FilterKind::Hybrid).state
 }
@@ -123,7 +123,7 @@ fn transition_is_the_derivative_of_the_motion() {
     }
 }
 
-fn model(kind: FilterKind) -> CorrectionModel {
+pub fn model(kind: FilterKind) -> CorrectionModel {
     CorrectionModel {
         kind,
         gate: Gate { confidence: 0.999 },
@@ -133,7 +133,7 @@ fn model(kind: FilterKind) -> CorrectionModel {
     }
 }
 
-fn bearing_to(state: &DescentState, track_id: u64, point_m: &Vector3<f64>) -> BearingObservation {
+pub fn bearing_to(state: &DescentState, track_id: u64, point_m: &Vector3<f64>) -> BearingObservation {
     let relative = state.lander_from_site * (point_m - state.lander_in_site_m) - CAMERA_IN_LANDER_M;
     BearingObservation::from_sigma(track_id, Unit::new_normalize(relative), 1e-3)
 }
@@ -285,7 +285,7 @@ fn pixel_noise_goes_through_the_camera() {
     assert_eq!(mount.bearing(&at(pixel), 0.6).expect("invertible").covariance_rad2, here.covariance_rad2 * 4.0);
 }
 
-fn imu_samples() -> Vec<ImuSample> {
+pub fn imu_samples() -> Vec<ImuSample> {
     (1..=200)
         .map(|k| ImuSample {
             t_ns: k * 10_000_000,
@@ -295,7 +295,7 @@ fn imu_samples() -> Vec<ImuSample> {
         .collect()
 }
 
-const NOISE: ImuNoise =
+pub const NOISE: ImuNoise =
     ImuNoise { rate_hz: 100.0, gyroscope_noise_density: 1e-3, accelerometer_noise_density: 2e-2, bias: None };
 
 /// Two increments in a row move a state, mean and covariance, as the one over both intervals does; the cut lies inside a
@@ -323,130 +323,4 @@ fn increments_compose() {
     let alone = record.between(0, 2_000_000_000, &ImuBiases::default()).expect("covered").covariance;
     assert!((alone[(4, 4)] / variance_m2_s2 - 1.0).abs() < 1e-9);
     assert!((alone[(7, 7)] / (variance_m2_s2 * 4.0 / 3.0) - 1.0).abs() < 1e-3);
-}
-
-/// A step of the filter at one known and one unknown landmark, allocated once, allocates nothing.
-#[test]
-fn a_filter_step_does_not_allocate() {
-    let covariance = nalgebra::DMatrix::from_diagonal(&DVector::from_fn(12, |k, _| 0.1 + 0.01 * k as f64));
-    let estimate = DescentEstimate { state: state(), covariance };
-    let increment = increment();
-    let after = moved(&estimate.state, &increment);
-    let bearings =
-        [bearing_to(&after, 0, &Vector3::zeros()), bearing_to(&after, 4, &after.landmarks[0].position_in_site_m)];
-    for kind in KINDS {
-        let (estimate, model) = (estimate.clone(), model(kind));
-        let mut outcome = None;
-        let counted = allocation_counter::measure(|| {
-            outcome = correct(predict(estimate, &increment, &PLANET, kind), &bearings, &model);
-        });
-        assert_eq!(counted.count_total, 0, "{kind:?}");
-        let outcome = outcome.expect("positive definite");
-        assert!(outcome.outcomes.iter().all(|o| o.used) && outcome.outcomes.len() == 2);
-    }
-    // The counter counts: a longer list of landmarks is allocated anew.
-    assert!(allocation_counter::measure(|| drop(std::hint::black_box(state()))).count_total > 0);
-}
-
-/// Bearings one after the other in blocks are the same as all at once with dense matrices.
-#[test]
-fn bearings_in_turn_are_bearings_at_once() {
-    let mut state = state();
-    state.landmarks.push(UnknownLandmark::new(7, Vector3::new(900.0, 2000.0, -5.0), 1));
-    state.biases = Some(ImuBiases::default());
-    let n = state.error_size();
-    let root = nalgebra::DMatrix::from_fn(n, n, |i, j| ((7 * i + 3 * j) % 11) as f64 * 0.02 + f64::from(i == j));
-    let covariance = &root * root.transpose();
-    let known = KnownPoint { position_in_site_m: Vector3::new(300.0, -200.0, 40.0), sigma_m: 2.0 };
-    for kind in KINDS {
-        let estimate = DescentEstimate { state: state.clone(), covariance: covariance.clone() };
-        let off = |b: BearingObservation, by: f64| {
-            let moved = b.direction_in_lander.into_inner() + tangent_basis(&b.direction_in_lander).column(0) * by;
-            BearingObservation { direction_in_lander: Unit::new_normalize(moved), ..b }
-        };
-        let to_known = bearing_to(&state, 99, &known.position_in_site_m);
-        let bearings = [
-            off(bearing_to(&state, 0, &Vector3::zeros()), 2e-4),
-            off(bearing_to(&state, 4, &state.landmarks[0].position_in_site_m), -3e-4),
-            off(bearing_to(&state, 7, &state.landmarks[1].position_in_site_m), 4e-4),
-            BearingObservation { known: Some(known), ..off(to_known, 1e-4) },
-        ];
-        let model = CorrectionModel { gate: Gate { confidence: 1.0 - 1e-12 }, second_order: false, ..model(kind) };
-        let in_turn = correct(estimate.clone(), &bearings, &model).expect("positive definite");
-        let parts: Vec<_> = bearings
-            .iter()
-            .map(|b| innovation(&state, b, &b.covariance_rad2, &model).expect("ahead").dense(n))
-            .collect();
-        let at_once = correction(&covariance, &Innovation::stacked(&parts).expect("parts")).expect("definite");
-        let expected = kind.retract(state.clone(), at_once.shift.as_slice());
-        let found = &in_turn.estimate;
-        assert!(in_turn.outcomes.iter().all(|o| o.used), "{:?}", in_turn.outcomes);
-        assert!((found.state.lander_in_site_m - expected.lander_in_site_m).norm() < 1e-9, "{kind:?}");
-        let moved = (found.state.landmarks[1].position_in_site_m - expected.landmarks[1].position_in_site_m).norm();
-        assert!(
-            moved < 1e-9
-                && (expected.landmarks[1].position_in_site_m - state.landmarks[1].position_in_site_m).norm() > 1e-6
-        );
-        assert!((&found.covariance - &at_once.covariance).amax() < 1e-9 * covariance.amax(), "{kind:?}");
-        let nis = in_turn.normalized_innovation_squared.expect("used");
-        assert!((nis / at_once.normalized_innovation_squared - 1.0).abs() < 1e-9, "{kind:?}");
-    }
-}
-
-/// The Jacobian of the bearing of a known point that is not the origin, and of the motion with biases on a planet that
-/// turns, against central differences.
-#[test]
-fn known_points_biases_and_rotation_have_the_right_derivatives() {
-    let state = state();
-    let known = KnownPoint { position_in_site_m: Vector3::new(300.0, -200.0, 40.0), sigma_m: 0.0 };
-    let planet = Planet { rate_in_site_rad_s: Vector3::new(0.02, -0.03, 0.05), ..PLANET };
-    for kind in KINDS {
-        let bearing = BearingObservation { known: Some(known), ..bearing_to(&state, 9, &known.position_in_site_m) };
-        let at = |s: &DescentState| innovation(s, &bearing, &Matrix2::identity(), &model(kind)).expect("ahead");
-        let residual = |c: &Chart| -at(&c.1).residual;
-        let numeric: SMatrix<f64, 2, 12> = central_difference(residual, &Chart(kind, state.clone()), 1e-4);
-        let analytic = SMatrix::<f64, 2, 12>::from_column_slice(at(&state).dense(12).jacobian.as_slice());
-        assert!((numeric - analytic).amax() < 1e-8, "{kind:?} known point {}", numeric - analytic);
-
-        let increment = increment();
-        let go = |s: &DescentState, i: &ImuIncrement| {
-            let size = s.error_size();
-            let start = DescentEstimate { state: s.clone(), covariance: nalgebra::DMatrix::zeros(size, size) };
-            predict(start, i, &planet, kind).state
-        };
-        let transition = kind.transition(&Core::of(&state), &go(&state, &increment), &increment, &planet);
-        let motion = |c: &Chart| Chart(kind, go(&c.1, &increment));
-        let numeric: SMatrix<f64, 12, 12> = central_difference(motion, &Chart(kind, state.clone()), 1e-4);
-        let analytic = SMatrix::<f64, 12, 12>::from_column_slice(transition.state_matrix().as_slice());
-        assert!((numeric - analytic).amax() < 5e-5, "{kind:?} rotation F {}", numeric - analytic);
-        let noisy = |n: &SVector<f64, 9>| Chart(kind, go(&state, &increment.adjusted(n)));
-        let numeric: SMatrix<f64, 12, 9> = central_difference(noisy, &SVector::<f64, 9>::zeros(), 1e-4);
-        let analytic = SMatrix::<f64, 12, 9>::from_column_slice(transition.noise_matrix().as_slice());
-        assert!((numeric - analytic).amax() < 1e-4, "{kind:?} rotation G {}", numeric - analytic);
-    }
-}
-
-/// What a bias does to an increment: the derivative by it, against increments with the bias taken off.
-#[test]
-fn increments_know_what_biases_do() {
-    let samples = imu_samples();
-    let imu = ImuRecord { samples: &samples, noise: &NOISE };
-    let between = |b: &SVector<f64, 6>| {
-        let biases = ImuBiases {
-            gyroscope_rad_s: b.fixed_rows::<3>(0).into_owned(),
-            accelerometer_m_s2: b.fixed_rows::<3>(3).into_owned(),
-        };
-        imu.between(0, 1_500_000_000, &biases).expect("covered")
-    };
-    let here = between(&SVector::zeros());
-    let error = |b: &SVector<f64, 6>| {
-        let there = between(b);
-        let mut e = SVector::<f64, 9>::zeros();
-        e.fixed_rows_mut::<3>(0).copy_from(&log(&(here.before_from_after.inverse() * there.before_from_after)));
-        e.fixed_rows_mut::<3>(3).copy_from(&(there.velocity_in_before_m_s - here.velocity_in_before_m_s));
-        e.fixed_rows_mut::<3>(6).copy_from(&(there.position_in_before_m - here.position_in_before_m));
-        e
-    };
-    let numeric: SMatrix<f64, 9, 6> = central_difference(error, &SVector::<f64, 6>::zeros(), 1e-5);
-    assert!((numeric - here.by_bias).amax() < 2e-3 * here.by_bias.amax(), "{}", numeric - here.by_bias);
 }

@@ -5,6 +5,7 @@
 //! filter comes in two forms that differ only in the coordinates of the error: [`FilterKind::Hybrid`], which stays
 //! consistent because nothing in it can pretend to observe yaw, and [`FilterKind::Standard`], the paper's own.
 
+mod bearing_innovation;
 mod candidates;
 mod config;
 mod coordinates;
@@ -30,10 +31,11 @@ mod standard;
 mod state;
 mod step;
 
+pub use bearing_innovation::{BearingInnovation, innovation};
 pub use candidates::{LookAhead, survives, viewpoint};
 pub use config::{BiasPrior, FilterKind, LandingConfig, LandmarkStart};
 pub use coordinates::{LandmarkTransition, RayPoint, RelativeJacobian, Transition};
-pub use correct::{BearingInnovation, Corrected, CorrectionModel, Outcome, Outcomes, correct, innovation};
+pub use correct::{Corrected, CorrectionModel, Outcome, Outcomes, correct};
 pub use delayed::{triangulated, with_ray};
 pub use error::LandingError;
 pub use files::{write_covariance_csv, write_estimate_csv};

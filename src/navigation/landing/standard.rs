@@ -52,7 +52,7 @@ pub(super) fn transition(before: &Core, after: &DescentState, increment: &ImuInc
         by_rotation_noise: Matrix3::zeros(),
     };
     let landmarks = after.landmarks.iter().map(|_| still).collect();
-    Transition { own_size: BIASES, by_state: phi, by_noise, landmarks, couples: false }
+    Transition { own_size: BIASES, by_state: phi, by_noise, landmarks, couples: planet.turns() }
 }
 
 /// ũ = ṽ + ω×r̃ before; r̃ and ũ turned by Eᵀ = exp(-ω T) and ṽ = ũ - ω×r̃ after.
