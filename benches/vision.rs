@@ -1,5 +1,8 @@
 //! Cost of the front end on a 1024² picture with 2000 features, one thread.
 
+#[path = "vision/plain.rs"]
+mod plain;
+
 use criterion::{Criterion, criterion_group, criterion_main};
 use image::GrayImage;
 use nalgebra::Vector2;
@@ -7,8 +10,8 @@ use opnav::geometry::Camera;
 use opnav::vision::*;
 use std::hint::black_box;
 
-/// A deterministic fractal texture, sampled at `place`.
-fn picture(place: impl Fn(f64, f64) -> (f64, f64)) -> GrayImage {
+/// A deterministic fractal texture, grey levels.
+fn texture(x: f64, y: f64) -> f64 {
     let lattice = |x: i64, y: i64| {
         let h = (x.wrapping_mul(73_856_093) ^ y.wrapping_mul(19_349_663)) as u64;
         let h = (h ^ (h >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -21,10 +24,15 @@ fn picture(place: impl Fn(f64, f64) -> (f64, f64)) -> GrayImage {
         let at = |a: i64, b: i64| lattice(i as i64 + a, j as i64 + b);
         (at(0, 0) * (1.0 - s) + at(1, 0) * s) * (1.0 - t) + (at(0, 1) * (1.0 - s) + at(1, 1) * s) * t
     };
+    let octave = |k: i32| 0.7f64.powi(k) * noise(x / f64::from(128 >> k) + 9.1, y / f64::from(128 >> k) + 3.7);
+    128.0 + 130.0 * (0..6).map(octave).sum::<f64>()
+}
+
+/// The texture sampled at `place`.
+fn picture(place: impl Fn(f64, f64) -> (f64, f64)) -> GrayImage {
     GrayImage::from_fn(1024, 1024, |u, v| {
         let (x, y) = place(f64::from(u), f64::from(v));
-        let octave = |k: i32| 0.7f64.powi(k) * noise(x / f64::from(128 >> k) + 9.1, y / f64::from(128 >> k) + 3.7);
-        image::Luma([(128.0 + 130.0 * (0..6).map(octave).sum::<f64>()).clamp(0.0, 255.0) as u8])
+        image::Luma([texture(x, y).clamp(0.0, 255.0) as u8])
     })
 }
 
@@ -71,5 +79,9 @@ fn front_end(criterion: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, front_end);
+fn beside_plain_opencv(criterion: &mut Criterion) {
+    plain::chains(criterion, &plain::TwoViews::new(texture));
+}
+
+criterion_group!(benches, front_end, beside_plain_opencv);
 criterion_main!(benches);

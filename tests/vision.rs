@@ -3,6 +3,7 @@
 #[cfg(feature = "render")]
 mod bars;
 mod bearings;
+mod center_table;
 mod features;
 mod files;
 mod gaps;

@@ -114,6 +114,22 @@ impl Scene {
     }
 }
 
+/// Cramér-Rao bound (rad²) of the rotation of a body about a known centre, structure unknown.
+pub fn bound_about_center(scene: &Scene, center: &Vector3<f64>, sigma_px: f64) -> Matrix3<f64> {
+    let r = scene.rotation.to_rotation_matrix().into_inner();
+    let mut information = Matrix3::<f64>::zeros();
+    for point in &scene.points {
+        let a: Matrix2x3<f64> = scene.camera.project_with_jacobian(point).unwrap().1;
+        let b: Matrix2x3<f64> = scene.camera.project_with_jacobian(&scene.second(point)).unwrap().1;
+        let by_turn = -b * so3::hat(&(r * (point - center)));
+        let by_point = b * r;
+        let points = a.transpose() * a + by_point.transpose() * by_point;
+        let cross = by_turn.transpose() * by_point;
+        information += by_turn.transpose() * by_turn - cross * points.try_inverse().unwrap() * cross.transpose();
+    }
+    information.try_inverse().unwrap() * sigma_px.powi(2)
+}
+
 pub fn angle_deg(a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>) -> f64 {
     so3::log(&(a * b.inverse())).norm().to_degrees()
 }

@@ -11,26 +11,41 @@ fn narrow() -> Camera {
     Camera::from_fov(1024, 1024, 30f64.to_radians())
 }
 
-struct Sequence {
-    scenes: Vec<Scene>,
+pub struct Sequence {
+    pub scenes: Vec<Scene>,
     pairs: Vec<MatchedPair>,
 }
 
 /// Independent pairs of one rate, as a sequence with a common centre; every pair's axis leans a little differently.
 fn sequence(count: usize, step_deg: f64, matches: usize, outliers: f64, seed: u64) -> Sequence {
+    sequence_seen_by(&narrow(), (count, step_deg), (matches, outliers), seed)
+}
+
+/// The same by another camera.
+pub fn sequence_seen_by(
+    camera: &Camera,
+    (count, step_deg): (usize, f64),
+    (matches, outliers): (usize, f64),
+    seed: u64,
+) -> Sequence {
     let mut random = random_stream(seed, "axes", 0);
     let axis = Vector3::from_fn(|_, _| -> f64 { StandardNormal.sample(&mut random) }).normalize();
     let mut scenes = Vec::new();
     for k in 0..count as u64 {
         let lean = Vector3::from_fn(|_, _| -> f64 { StandardNormal.sample(&mut random) }) * 0.02;
         let turn = (axis + lean) * step_deg.to_radians();
-        scenes.push(ellipsoid(narrow(), matches, &turn, 1000 * seed + k));
+        scenes.push(ellipsoid(*camera, matches, &turn, 1000 * seed + k));
     }
     let pairs = scenes.iter().enumerate().map(|(k, s)| s.matches(0.3, outliers, 77 * seed + k as u64)).collect();
     Sequence { scenes, pairs }
 }
 
-fn solve(sequence: &Sequence, guess_off_rad: f64) -> CenterSolution {
+pub fn solve(sequence: &Sequence, guess_off_rad: f64) -> CenterSolution {
+    solve_held(sequence, guess_off_rad, FixedCenterConfig::default().center_sigma_rad)
+}
+
+/// Rotations about a centre that may leave its guess by `center_sigma_rad`.
+pub fn solve_held(sequence: &Sequence, guess_off_rad: f64, center_sigma_rad: f64) -> CenterSolution {
     let sigma = vec![0.3; sequence.pairs[0].from_px.len()];
     let pairs: Vec<CenteredPair> = sequence
         .pairs
@@ -39,9 +54,9 @@ fn solve(sequence: &Sequence, guess_off_rad: f64) -> CenterSolution {
         .collect();
     let guess = so3::exp(&Vector3::new(guess_off_rad, -guess_off_rad, 0.0)) * Vector3::z();
     let problem = CenterProblem {
-        camera: &narrow(),
+        camera: &sequence.scenes[0].camera,
         center_guess: Unit::new_normalize(guess),
-        config: &FixedCenterConfig { smooth_error_share: 0.0, ..FixedCenterConfig::default() },
+        config: &FixedCenterConfig { smooth_error_share: 0.0, center_sigma_rad, ..FixedCenterConfig::default() },
         rotation: &RotationConfig::default(),
     };
     rotations_about_center(&pairs, &problem)
