@@ -19,16 +19,16 @@ pub(super) struct PoseFit {
     pub(super) camera_from_site: Isometry3<f64>,
     /// Found less predicted, px; infinite where the point lies behind the camera.
     pub(super) residuals_px: Vec<Vector2<f64>>,
-    /// Robust 1σ of a residual's coordinate, px.
-    pub(super) scale_px: f64,
+    /// Robust 1σ of the residuals, over the points' own.
+    pub(super) scale: f64,
 }
 
 /// Gauss–Newton steps, at most.
 const MOST_STEPS: usize = 20;
 /// Residuals beyond this many robust 1σ count less and less (Geman and McClure's weights).
 const SOFT: f64 = 3.0;
-/// The robust 1σ is no less than this, px.
-const LEAST_SCALE_PX: f64 = 0.05;
+/// That robust 1σ is no less than this.
+const LEAST_SCALE: f64 = 0.05;
 
 /// Pixel of a point, and its derivative (2×6, px by rad and m) by a small turn of the pose and a small shift in camera axes:
 /// `p' = exp(φ) p + τ`. `None` behind the camera.
@@ -61,13 +61,13 @@ pub(super) fn fit_pose(
     start: &Isometry3<f64>,
 ) -> Option<PoseFit> {
     let mut pose = *start;
-    let (mut residuals_px, mut scale_px) = residuals(camera, &pose, points);
+    let (mut residuals_px, mut scale) = residuals(camera, &pose, points);
     for _ in 0..MOST_STEPS {
         let (mut normal, mut right) = prior(predicted, &pose);
         for (point, residual) in points.iter().zip(&residuals_px) {
             let Some((_, jacobian)) = pixel_with_jacobian(camera, &pose, &point.point_in_site_m) else { continue };
-            let unit = residual.norm() / (SOFT * scale_px * point.sigma_px);
-            let weight = (1.0 / (1.0 + unit * unit).powi(2)) / (scale_px * point.sigma_px).powi(2);
+            let unit = residual.norm() / (SOFT * scale * point.sigma_px);
+            let weight = (1.0 / (1.0 + unit * unit).powi(2)) / (scale * point.sigma_px).powi(2);
             normal += jacobian.transpose() * jacobian * weight;
             right += jacobian.transpose() * residual * weight;
         }
@@ -76,12 +76,12 @@ pub(super) fn fit_pose(
             return None;
         }
         pose = moved(&pose, &step);
-        (residuals_px, scale_px) = residuals(camera, &pose, points);
+        (residuals_px, scale) = residuals(camera, &pose, points);
         if step.fixed_rows::<3>(0).norm() < 1e-9 && step.fixed_rows::<3>(3).norm() < 1e-5 {
             break;
         }
     }
-    Some(PoseFit { camera_from_site: pose, residuals_px, scale_px })
+    Some(PoseFit { camera_from_site: pose, residuals_px, scale })
 }
 
 /// Normal matrix and right side of the prediction at a pose. A shift τ in camera axes moves the camera by -Rᵀτ.
@@ -111,7 +111,7 @@ fn residuals(camera: &Camera, pose: &Isometry3<f64>, points: &[Pointing]) -> (Ve
     sizes.sort_by(f64::total_cmp);
     // The median length of a vector of two standard normal numbers is 1.1774.
     let scale = sizes.get(sizes.len() / 2).map_or(1.0, |median| median / 1.1774);
-    (all, scale.clamp(LEAST_SCALE_PX, 1e6))
+    (all, scale.clamp(LEAST_SCALE, 1e6))
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use nalgebra::{Vector2, Vector3};
 /// Steps of a ray until it stands on the ground, at most.
 const MOST_STEPS: usize = 16;
 /// A ray stands on the ground when it is this near, in footprints of a pixel…
-const SETTLED: f64 = 0.01;
+const SETTLED: f64 = 0.02;
 /// …or, after all steps, this near: beside a seam between levels.
 const NEAR: f64 = 0.3;
 
@@ -75,6 +75,8 @@ impl Ground {
     ) -> Option<Meeting> {
         let mut height_m = from_m;
         let mut last = None;
+        // Height and how far the ground lies above it, at the step before.
+        let mut before: Option<(f64, f64)> = None;
         for _ in 0..MOST_STEPS {
             let depth = (height_m - origin_m.z) / direction.z;
             if !(depth > 0.0 && depth.is_finite()) {
@@ -83,12 +85,16 @@ impl Ground {
             let point_m = origin_m + direction * depth;
             let footprint_m = depth * pixel_tangent;
             let (level, ground_m) = self.height_m(&point_m.xy(), footprint_m)?;
-            let off = (ground_m - point_m.z).abs() / footprint_m;
+            let above_m = ground_m - point_m.z;
+            let off = above_m.abs() / footprint_m;
             last = Some((Meeting { point_in_site_m: point_m, level, footprint_m }, off));
             if off < SETTLED {
                 break;
             }
-            height_m = ground_m;
+            let slope = before.map_or(-1.0, |(z_m, a_m)| (above_m - a_m) / (height_m - z_m));
+            before = Some((height_m, above_m));
+            // A secant where it is near that of level ground, the ground's own height elsewhere.
+            height_m = if (-2.0..-0.4).contains(&slope) { height_m - above_m / slope } else { ground_m };
         }
         last.filter(|(_, off)| *off < NEAR).map(|(meeting, _)| meeting)
     }

@@ -119,7 +119,7 @@ impl MapMatcher {
         }
         let found = find(&view, picture, &self.config)?;
         (fix.status, fix.found) = (MapStatus::Lost, found.len());
-        let Some((pose, agreeing)) = self.agreeing(camera, &found, predicted) else { return Ok(fix) };
+        let Some((pose, agreeing, worse)) = self.agreeing(camera, &found, predicted) else { return Ok(fix) };
         fix.agreeing = agreeing.len();
         if agreeing.len() < self.config.fewest_sightings
             || (agreeing.len() as f64) < self.config.least_agreeing * found.len() as f64
@@ -135,35 +135,38 @@ impl MapMatcher {
         let chosen = spread(&agreeing, camera.size_px(), self.config.most_sightings);
         let sighting = |p: &FoundPoint| {
             let common_px2 = self.common_px2(camera, &pose, p) * chosen.len() as f64;
-            p.sighting(scale, self.ground.level(p.meeting.level), &common_px2)
+            // Where the points disagree more than they should, what they have in common is as much worse.
+            let covariance_px2 = (p.covariance_px2 + common_px2) * worse.powi(2);
+            let level = self.ground.level(p.meeting.level);
+            FoundPoint { covariance_px2, ..*p }.sighting(scale, level)
         };
         fix.sightings = chosen.iter().map(sighting).collect();
         (fix.status, fix.camera_from_site) = (status, pose);
         Ok(fix)
     }
 
-    /// The pose that fits the points, and those that agree with it.
+    /// The pose that fits the points, those that agree with it, and how many times larger than predicted their residuals are
+    /// (1 or more).
     fn agreeing(
         &self,
         camera: &Camera,
         found: &[FoundPoint],
         predicted: &PredictedCamera,
-    ) -> Option<(Isometry3<f64>, Vec<FoundPoint>)> {
+    ) -> Option<(Isometry3<f64>, Vec<FoundPoint>, f64)> {
         if found.len() < self.config.fewest_sightings {
             return None;
         }
         let pointings: Vec<Pointing> = found.iter().map(FoundPoint::pointing).collect();
         let fit = fit_pose(camera, &pointings, predicted, &predicted.camera_from_site)?;
-        let agrees = |(residual, p): (&Vector2<f64>, &Pointing)| {
-            residual.norm() <= GATE_SIGMA * p.sigma_px * fit.scale_px.max(1.0)
-        };
+        let agrees =
+            |(residual, p): (&Vector2<f64>, &Pointing)| residual.norm() <= GATE_SIGMA * p.sigma_px * fit.scale.max(1.0);
         let agreeing: Vec<FoundPoint> = found
             .iter()
             .zip(fit.residuals_px.iter().zip(&pointings))
             .filter(|(_, r)| agrees(*r))
             .map(|(p, _)| *p)
             .collect();
-        Some((fit.camera_from_site, agreeing))
+        Some((fit.camera_from_site, agreeing, fit.scale.max(1.0)))
     }
 
     /// Covariance of what a point's pixel has in common with all others, px²: a shift, and heights above the map's.

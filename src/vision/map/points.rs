@@ -25,12 +25,11 @@ impl FoundPoint {
         Pointing { point_in_site_m: self.meeting.point_in_site_m, pixel_px: self.pixel_px, sigma_px }
     }
 
-    /// The sighting in the whole picture, which is `scale` times as large, with the covariance `common_px2` of what it
-    /// shares with the others.
-    pub(super) fn sighting(&self, scale: f64, level: &MapLevel, common_px2: &Matrix2<f64>) -> MapSighting {
+    /// The sighting in the whole picture, which is `scale` times as large.
+    pub(super) fn sighting(&self, scale: f64, level: &MapLevel) -> MapSighting {
         MapSighting {
             pixel_px: self.pixel_px * scale,
-            covariance_px2: (self.covariance_px2 + common_px2) * (scale * scale),
+            covariance_px2: self.covariance_px2 * (scale * scale),
             point_in_site_m: self.meeting.point_in_site_m,
             sigma_horizontal_m: level.sigma_horizontal_m,
             sigma_vertical_m: level.sigma_vertical_m,

@@ -3,7 +3,7 @@
 use super::ground::{Ground, Meeting};
 use crate::geometry::Camera;
 use image::GrayImage;
-use nalgebra::{Isometry3, Vector2, Vector3};
+use nalgebra::{Isometry3, Matrix3, Vector2, Vector3};
 use rayon::prelude::*;
 
 /// Grey level of the mean, and of one standard deviation, of a drawn view.
@@ -14,7 +14,8 @@ const SPREAD_DN: f32 = 45.0;
 pub(super) struct MapView<'a> {
     ground: &'a Ground,
     camera: Camera,
-    camera_from_site: Isometry3<f64>,
+    origin_in_site_m: Vector3<f64>,
+    site_from_camera: Matrix3<f64>,
     /// The picture, its contrast stretched; grey where the map knows nothing.
     pub(super) picture: GrayImage,
     /// 255 where the map knows the ground, 0 elsewhere.
@@ -30,7 +31,8 @@ impl<'a> MapView<'a> {
         let mut view = MapView {
             ground,
             camera: *camera,
-            camera_from_site: *camera_from_site,
+            origin_in_site_m: camera_from_site.inverse().translation.vector,
+            site_from_camera: camera_from_site.rotation.inverse().to_rotation_matrix().into_inner(),
             picture: GrayImage::default(),
             known: GrayImage::default(),
             covered: 0.0,
@@ -58,10 +60,8 @@ impl<'a> MapView<'a> {
     }
 
     fn meet_from(&self, pixel_px: &Vector2<f64>, height_m: f64) -> Option<Meeting> {
-        let ray = self.camera.normalize(pixel_px)?.push(1.0);
-        let origin_m = self.camera_from_site.inverse_transform_point(&Vector3::zeros().into()).coords;
-        let direction = self.camera_from_site.rotation.inverse_transform_vector(&ray);
-        self.ground.meet((&origin_m, &direction), 1.0 / self.camera.mean_focal_px(), height_m)
+        let direction = self.site_from_camera * self.camera.normalize(pixel_px)?.push(1.0);
+        self.ground.meet((&self.origin_in_site_m, &direction), 1.0 / self.camera.mean_focal_px(), height_m)
     }
 
     /// Whether the square of `2 half + 1` px a side about a pixel shows known ground at its corners, the middles of its
