@@ -75,7 +75,7 @@ fn predicted_camera(
 
 /// What a picture shows otherwise than the map stays wrong in the same way until the scale has changed by this, as a
 /// natural logarithm (fitted to rendered ground).
-const SHARED_SCALE: f64 = 0.2;
+const SHARED_SCALE: f64 = 0.14;
 
 /// How many pictures share their errors, given the change of scale from each to the next.
 fn pictures_that_share(scale: f64) -> f64 {

@@ -1,6 +1,5 @@
 //! Whole descents by a map, from pixels: yaw is observed, and the position is that of the map.
 
-use crate::bar::{Bar, check_table};
 use nalgebra::Vector2;
 use opnav::dataset::{read_ground_map, write_ground_map};
 use opnav::evaluation::Metrics;
@@ -92,52 +91,4 @@ fn a_descent_follows_its_map() {
     descent.shift_map("shifted", Vector2::new(3.0, -4.0));
     let off_m = figure(&descent.landed_by(Some("shifted")), "last_picture_horizontal_error");
     assert!((4.0..6.0).contains(&off_m), "a map that lies 5 m off leads {off_m} m off");
-}
-
-const SEEDS: std::ops::RangeInclusive<u64> = 1..=10;
-
-#[test]
-#[ignore = "many minutes: run by `make accuracy`"]
-fn accuracy_of_the_map_mode() {
-    let mut all: Vec<Metrics> = Vec::new();
-    let mut shifted_m = f64::NAN;
-    for seed in SEEDS {
-        let overrides = [format!("seed={seed}"), "camera.width_px=1024".into(), "camera.height_px=1024".into()];
-        let descent = Descent::new(&overrides, &MapRequest::LEVELS);
-        all.push(descent.landed_by(Some("map")));
-        let [horizontal, z, yaw, nees] =
-            ["last_picture_horizontal_error", "last_picture_z_error", "last_picture_yaw_error", "nees_per_dof_mean"]
-                .map(|name| figure(&all[all.len() - 1], name));
-        println!("seed {seed}: horizontal {horizontal:.3} m, z {z:.3} m, yaw {yaw:.4} deg, NEES/9 {nees:.2}");
-        if seed == *SEEDS.start() {
-            descent.shift_map("shifted", Vector2::new(2.0, 0.0));
-            shifted_m = figure(&descent.landed_by(Some("shifted")), "last_picture_horizontal_error");
-        }
-    }
-    let three_rms = |name: &str| {
-        let squared = all.iter().map(|m| figure(m, name).powi(2));
-        3.0 * (squared.sum::<f64>() / all.len() as f64).sqrt()
-    };
-    let bars = ["last_picture", "final"].iter().flat_map(|when| {
-        let bar = |what: &str, bound: f64, unit| {
-            let name = format!("{when}_{what}_error");
-            Bar::at_most(format!("3 r.m.s. of {name}"), three_rms(&name), bound, unit)
-        };
-        vec![
-            bar("horizontal", 0.5, "m"),
-            bar("z", 1.0, "m"),
-            bar("speed", 0.15, "m/s"),
-            bar("roll", 0.05, "deg"),
-            bar("pitch", 0.05, "deg"),
-            bar("yaw", 0.05, "deg"),
-        ]
-    });
-    let nees = all.iter().map(|m| figure(m, "nees_per_dof_mean")).sum::<f64>() / all.len() as f64;
-    let more = [
-        Bar::at_least("NEES per degree of freedom", nees, 0.6, ""),
-        Bar::at_most("NEES per degree of freedom", nees, 1.6, ""),
-        Bar::at_least("horizontal error by a map that lies 2 m off", shifted_m, 1.5, "m"),
-    ];
-    let title = "landing by a map, 10 descents of 1024 px";
-    check_table(title, std::iter::once(bars.chain(more).collect()));
 }
