@@ -1,7 +1,6 @@
 //! Peaks of a corner response: where exactly, how blunt, and how well known.
 
 use super::DetectorConfig;
-use image::GrayImage;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 /// What changes between two pictures besides noise tilts the response about a peak by this share of its height a px;
@@ -14,7 +13,6 @@ const NOISE_FACTOR: f64 = 0.9;
 /// A picture's responses, row by row.
 pub(super) struct Grid<'a> {
     pub(super) width: usize,
-    pub(super) height: usize,
     /// Smoothed grey levels over 255.
     pub(super) smooth: &'a [f32],
     pub(super) response: &'a [f32],
@@ -39,33 +37,6 @@ impl Peak {
 }
 
 impl Grid<'_> {
-    /// Local maxima of the response as (response, index), strongest first.
-    pub(super) fn maxima(&self, mask: Option<&GrayImage>, config: &DetectorConfig) -> Vec<(f32, usize)> {
-        let strongest = self.response.iter().copied().fold(0.0, f32::max);
-        let least = (strongest * config.min_response_ratio as f32).max(1e-12);
-        let border = config.border_px as usize;
-        let mut maxima = Vec::new();
-        for y in border..self.height.saturating_sub(border) {
-            for x in border..self.width.saturating_sub(border) {
-                let at = y * self.width + x;
-                let value = self.response[at];
-                if value >= least && self.is_maximum(at) && mask.is_none_or(|m| m.as_raw()[at] != 0) {
-                    maxima.push((value, at));
-                }
-            }
-        }
-        maxima.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        maxima
-    }
-
-    fn is_maximum(&self, at: usize) -> bool {
-        let (r, w) = (self.response, self.width);
-        // Ties go to the first in reading order.
-        let before = [at - w - 1, at - w, at - w + 1, at - 1];
-        let after = [at + 1, at + w - 1, at + w, at + w + 1];
-        before.iter().all(|&i| r[i] < r[at]) && after.iter().all(|&i| r[i] <= r[at])
-    }
-
     /// Peak of the least-squares quadratic through the 3×3 responses about a maximum; `None` where it has none within 1 px.
     pub(super) fn peak(&self, at: usize) -> Option<Peak> {
         let whole = Vector2::new((at % self.width) as f64, (at / self.width) as f64);

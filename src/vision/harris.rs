@@ -2,14 +2,12 @@
 
 use super::corner_peak::{Grid, Peak};
 use super::evenly::spread_evenly;
-use super::opencv_bridge::picture_mat;
+use super::harris_response::responses;
+use super::local_maxima::local_maxima;
 use super::picture_noise::noise_sigma_dn;
 use super::{DetectorConfig, VisionError};
 use image::GrayImage;
 use nalgebra::{Matrix2, Vector2};
-use opencv::core::{BORDER_REFLECT_101, CV_32F, Mat, Size};
-use opencv::imgproc::{corner_harris, gaussian_blur};
-use opencv::prelude::*;
 
 /// A corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +42,7 @@ impl Feature {
 /// responses. Blunt peaks are left out: what changes between two pictures moves a peak by its width squared.
 ///
 /// # Errors
-/// A mask of another size, or OpenCV's refusal.
+/// A mask of another size.
 pub fn detect_harris(
     picture: &GrayImage,
     mask: Option<&GrayImage>,
@@ -54,35 +52,16 @@ pub fn detect_harris(
         let ((mask_width_px, mask_height_px), (width_px, height_px)) = (mask.dimensions(), picture.dimensions());
         return Err(VisionError::MaskSize { mask_width_px, mask_height_px, width_px, height_px });
     }
-    let (smooth, response) = responses(picture, config).map_err(VisionError::opencv("compute the Harris response"))?;
-    let grid = Grid {
-        width: picture.width() as usize,
-        height: picture.height() as usize,
-        smooth: smooth.data_typed().map_err(VisionError::opencv("read the smoothed picture"))?,
-        response: response.data_typed().map_err(VisionError::opencv("read the Harris response"))?,
-        noise_dn: noise_sigma_dn(picture),
-    };
+    let (width, height) = (picture.width() as usize, picture.height() as usize);
+    let found = responses(picture.as_raw(), (width, height), config);
+    let grid = Grid { width, smooth: &found.smooth, response: &found.response, noise_dn: noise_sigma_dn(picture) };
     let feature = |at: usize| {
         let peak = grid.peak(at).filter(|p| p.width_px() <= config.max_peak_width_px)?;
         Some(Feature::new(&grid, &peak, config)).filter(|f| f.sigma_px <= config.max_sigma_px)
     };
-    let peaks = grid.maxima(mask, config);
-    let size = (grid.width, grid.height);
-    let chosen = spread_evenly(&peaks, size, config.max_features, config.min_distance_px, |at| feature(at).is_some());
-    Ok(chosen.iter().filter_map(|(_, at)| feature(*at)).collect())
-}
-
-/// The smoothed picture (grey levels / 255) and its smoothed Harris response.
-fn responses(picture: &GrayImage, config: &DetectorConfig) -> opencv::Result<(Mat, Mat)> {
-    let bytes = picture_mat(picture)?;
-    let (mut grey, mut smooth, mut sharp, mut response) =
-        (Mat::default(), Mat::default(), Mat::default(), Mat::default());
-    bytes.convert_to(&mut grey, CV_32F, 1.0 / 255.0, 0.0)?;
-    let blur = |from: &Mat, to: &mut Mat, sigma_px: f64| {
-        gaussian_blur(from, to, Size::new(0, 0), sigma_px, sigma_px, BORDER_REFLECT_101)
-    };
-    blur(&grey, &mut smooth, config.smoothing_sigma_px)?;
-    corner_harris(&smooth, &mut sharp, config.block_px as i32, 3, config.harris_k, BORDER_REFLECT_101)?;
-    blur(&sharp, &mut response, config.response_sigma_px)?;
-    Ok((smooth, response))
+    let limits = (config.border_px as usize, config.min_response_ratio as f32);
+    let peaks = local_maxima((grid.response, width), limits, mask);
+    let chosen = spread_evenly(&peaks, (width, height), config.max_features, config.min_distance_px, feature);
+    found.put_back();
+    Ok(chosen)
 }

@@ -32,12 +32,22 @@ pub(super) struct LocalFit {
 /// Nearest matches used.
 const NEAREST: usize = 40;
 
+/// The nearest matches with their distances, nearest first; of equally near ones the first.
+fn nearest<'a>(about_px: &Vector2<f64>, matches: &'a [Match]) -> Vec<(f64, &'a Match)> {
+    let mut all: Vec<(f64, usize)> = matches.iter().enumerate().map(|(i, m)| ((m.0 - about_px).norm(), i)).collect();
+    let nearer = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+    if all.len() > NEAREST {
+        all.select_nth_unstable_by(NEAREST, nearer);
+        all.truncate(NEAREST);
+    }
+    all.sort_unstable_by(nearer);
+    all.into_iter().map(|(distance_px, i)| (distance_px, &matches[i])).collect()
+}
+
 /// Robust weighted fit to the nearest matches (from, to, σ in px); `None` with fewer than `fewest`, or where the point lies
 /// outside of what they span. Near matches weigh more: curvature of the ground grows with the square of the distance.
 pub(super) fn fit_affine(about_px: &Vector2<f64>, matches: &[Match], fewest: usize) -> Option<LocalFit> {
-    let mut near: Vec<_> = matches.iter().map(|m| ((m.0 - about_px).norm(), m)).collect();
-    near.sort_by(|a, b| a.0.total_cmp(&b.0));
-    near.truncate(NEAREST);
+    let near = nearest(about_px, matches);
     if near.len() < fewest {
         return None;
     }

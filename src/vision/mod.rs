@@ -91,11 +91,17 @@ mod ground_start;
 #[cfg(feature = "vision")]
 mod harris;
 #[cfg(feature = "vision")]
+mod harris_response;
+#[cfg(feature = "vision")]
 mod keyframes;
 #[cfg(feature = "vision")]
 mod klt;
 #[cfg(feature = "vision")]
+mod line_filter;
+#[cfg(feature = "vision")]
 mod local_affine;
+#[cfg(feature = "vision")]
+mod local_maxima;
 #[cfg(feature = "vision")]
 mod map;
 #[cfg(feature = "vision")]

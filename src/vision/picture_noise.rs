@@ -2,26 +2,22 @@
 
 use image::GrayImage;
 
+/// Response of a pixel that shows no noise: empty sky, or saturated. No other has this one.
+const BLIND: u16 = 4095;
+
 /// 1σ of the picture's noise in grey levels (Immerkaer 1996), from the lower quartile of the response of a mask that
 /// is blind to planes and edges, so that texture counts little; at least the noise of rounding.
 pub fn noise_sigma_dn(picture: &GrayImage) -> f64 {
     let (width, height) = (picture.width() as usize, picture.height() as usize);
-    let p = picture.as_raw();
-    let mut histogram = vec![0u32; 4096];
-    let mut count = 0u32;
+    let mut histogram = vec![0u32; usize::from(BLIND) + 1];
+    let mut line = vec![BLIND; width.saturating_sub(2)];
     for y in (1..height.saturating_sub(1)).step_by(3) {
-        for x in 1..width.saturating_sub(1) {
-            let at = y * width + x;
-            let g = |dy: isize, dx: isize| i32::from(p[(at as isize + dy * width as isize + dx) as usize]);
-            if g(0, 0) < 4 || g(0, 0) > 251 {
-                continue; // empty sky or saturated: no noise to see
-            }
-            let cross = g(-1, 0) + g(1, 0) + g(0, -1) + g(0, 1);
-            let corners = g(-1, -1) + g(-1, 1) + g(1, -1) + g(1, 1);
-            histogram[(4 * g(0, 0) - 2 * cross + corners).unsigned_abs() as usize] += 1;
-            count += 1;
-        }
+        let row = |y: usize| &picture.as_raw()[y * width..][..width];
+        respond([row(y - 1), row(y), row(y + 1)], &mut line);
+        line.iter().for_each(|r| histogram[usize::from(*r & BLIND)] += 1);
     }
+    histogram[usize::from(BLIND)] = 0;
+    let count: u32 = histogram.iter().sum();
     let mut seen = 0;
     let quartile = histogram.iter().position(|n| {
         seen += n;
@@ -30,4 +26,19 @@ pub fn noise_sigma_dn(picture: &GrayImage) -> f64 {
     const LOWER_QUARTILE_OF_ABSOLUTE_NORMAL: f64 = 0.3186;
     let sigma = quartile.unwrap_or(0) as f64 / (6.0 * LOWER_QUARTILE_OF_ABSOLUTE_NORMAL);
     sigma.max(1.0 / 12f64.sqrt())
+}
+
+/// Size of the mask's response along the middle one of three lines, without the first and the last pixel.
+fn respond(lines: [&[u8]; 3], out: &mut [u16]) {
+    let count = out.len();
+    let [[a, b, c], [d, e, f], [g, h, i]] = lines.map(|l| [0, 1, 2].map(|k| &l[k..][..count]));
+    let corners = a.iter().zip(c).zip(g.iter().zip(i));
+    let cross = b.iter().zip(d).zip(f.iter().zip(h));
+    let grey = |level: &u8| i16::from(*level);
+    for (((out, e), ((a, c), (g, i))), ((b, d), (f, h))) in out.iter_mut().zip(e).zip(corners).zip(cross) {
+        let corners = grey(a) + grey(c) + grey(g) + grey(i);
+        let cross = grey(b) + grey(d) + grey(f) + grey(h);
+        let response = (4 * grey(e) - 2 * cross + corners).unsigned_abs();
+        *out = if (4..=251).contains(e) { response } else { BLIND };
+    }
 }
