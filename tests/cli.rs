@@ -3,6 +3,7 @@
 
 mod folders;
 mod long_folder;
+mod masks;
 mod montecarlo;
 mod outcomes;
 

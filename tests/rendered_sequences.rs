@@ -39,6 +39,7 @@ fn tracked(images: &Path, frames: Option<Range<usize>>, mode: FrontEndMode) -> M
         times: FrameTimes::default(),
         every: 1,
         frames,
+        mask: None,
         config: FrontEndConfig { mode, ..FrontEndConfig::default() },
     };
     track(&request, &Silent).expect("the sequence is tracked");

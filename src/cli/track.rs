@@ -28,6 +28,9 @@ pub struct Arguments {
     /// Pictures to take, counted from 0, without B.
     #[arg(long, value_name = "A..B", value_parser = frame_range)]
     frames: Option<Range<usize>>,
+    /// Grey picture of 8 bits and the camera's size, 0 where not to look (parts of the spacecraft).
+    #[arg(long, value_name = "FILE")]
+    mask: Option<PathBuf>,
 }
 
 /// Tracks and prints the counts.
@@ -43,6 +46,7 @@ pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineErr
         },
         every: arguments.every,
         frames: arguments.frames.clone(),
+        mask: arguments.mask.clone(),
         config: FrontEndConfig::default(),
     };
     let summary = track(&request, terminal)?;

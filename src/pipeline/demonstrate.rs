@@ -94,6 +94,7 @@ fn demonstrate_tracking(out: &Path, images: &Path, progress: &dyn Progress) -> R
         times: FrameTimes::Folder,
         every: 1,
         frames: None,
+        mask: None,
         config: FrontEndConfig::default(),
     };
     track(&request, progress)?;

@@ -61,6 +61,7 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
         every: 1,
         rotation_prior: Some(&prior),
         designated: Some(designated),
+        mask: None,
     };
     let front_end = run_front_end(&sequence, &front_end_config, &inputs, (progress, &mut summary))?;
     let mut input = LandingInput {

@@ -10,6 +10,7 @@ mod front_end_files;
 mod land;
 mod land_map;
 mod map;
+mod mask;
 mod montecarlo;
 mod page;
 mod progress;

@@ -1,6 +1,7 @@
 //! Any folder of pictures to tracks and relative rotations.
 
 use super::front_end_files::{write_front_end, write_pictures};
+use super::mask::read_mask;
 use super::summary::UnusedFrame;
 use super::{PipelineError, Progress, Summary};
 use crate::dataset::{CameraSource, FrameTimes, ImageSequence};
@@ -24,6 +25,8 @@ pub struct TrackRequest {
     pub every: usize,
     /// Pictures to take; all if `None`.
     pub frames: Option<Range<usize>>,
+    /// A picture of the camera's size that is 0 where not to look.
+    pub mask: Option<PathBuf>,
     /// Front-end settings.
     pub config: FrontEndConfig,
 }
@@ -32,14 +35,16 @@ pub struct TrackRequest {
 /// be used are named in the summary, and tracking goes on around them.
 ///
 /// # Errors
-/// Fewer than two pictures that can be read, no camera, or a file that cannot be written.
+/// Fewer than two pictures that can be read, no camera, a mask that does not fit, or a file that cannot be written.
 pub fn track(request: &TrackRequest, progress: &dyn Progress) -> Result<Summary, PipelineError> {
     let sequence = ImageSequence::open_timed(&request.folder, &request.camera, &request.times)?;
     let frames = checked_frames(request.frames.clone(), sequence.frames.len())?;
-    let inputs = TrackInputs { frames, every: request.every, rotation_prior: None, designated: None };
+    let mask = request.mask.as_deref().map(|path| read_mask(path, sequence.sensor.camera.size_px())).transpose()?;
+    let inputs = TrackInputs { frames, every: request.every, mask: mask.as_ref(), ..TrackInputs::default() };
     let options = serde_json::json!({
         "folder": request.folder.display().to_string(),
         "every": request.every,
+        "mask": request.mask.as_ref().map(|path| path.display().to_string()),
         "front_end": request.config,
     });
     let mut summary = Summary::new("tracking", options);

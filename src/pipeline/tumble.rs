@@ -43,7 +43,7 @@ pub fn tumble(request: &TumbleRequest, progress: &dyn Progress) -> Result<Summar
         "front_end": request.front_end,
     });
     let mut summary = Summary::new("tumbling", options);
-    let inputs = TrackInputs { frames, every: 1, rotation_prior: None, designated: None };
+    let inputs = TrackInputs { frames, every: 1, rotation_prior: None, designated: None, mask: None };
     let front_end = run_front_end(&sequence, &request.front_end, &inputs, (progress, &mut summary))?;
     let times_ns: Vec<i64> = front_end.frames.iter().map(|f| f.t_ns).collect();
     let start = Instant::now();

@@ -41,7 +41,7 @@ pub(super) fn link(
     let mut chain = Chain::default();
     for chunk in chosen.chunks(pictures_at_a_time(job)) {
         let find = |frame: &&Frame| {
-            let found = FrameFeatures::find(job.sequence, frame, job.config);
+            let found = FrameFeatures::find(job, frame);
             progress(done.fetch_add(1, Ordering::Relaxed) + 1);
             found
         };

@@ -7,6 +7,7 @@
 
 use super::designated_keyframes::{Keyframe, Keyframes, Tie};
 use super::front_end::DesignatedStep;
+use super::keep_out::KeepOut;
 use super::local_affine::{Match, fit_affine};
 use super::patch::refine_by_patch;
 use super::sequence::Job;
@@ -45,7 +46,9 @@ pub(super) fn carry_designated(
     let mut past = Keyframes::new(first, job.sequence.load(chosen[first])?, steps[0]);
     for (frame, file) in chosen.iter().enumerate().skip(first + 1) {
         let picture = job.sequence.load(file)?;
-        let tie = |(from, keyframe): (usize, &Keyframe)| tie((from, keyframe), (frame, &picture), tracks, &klt);
+        let tie = |(from, keyframe): (usize, &Keyframe)| {
+            tie((from, keyframe), (frame, &picture), tracks, (&klt, job.keep_out.as_ref()))
+        };
         let ties: Vec<Tie> = past.chosen().filter_map(tie).collect();
         let fused = past.fused(file.t_ns, &ties);
         let Some(fused) = fused.filter(|f| job.camera().contains(&f.step.pixel_px, MARGIN_PX)) else { break };
@@ -61,7 +64,7 @@ fn tie(
     (from, past): (usize, &Keyframe),
     (frame, picture): (usize, &GrayImage),
     tracks: &Tracks,
-    klt: &KltConfig,
+    (klt, keep_out): (&KltConfig, Option<&KeepOut>),
 ) -> Option<Tie> {
     let pairs: Vec<Match> = tracks.shared(past.frame, frame);
     let adjacent = frame == past.frame + 1;
@@ -73,7 +76,8 @@ fn tie(
     }
     let predicted = local.affine.apply(&past.step.pixel_px);
     let refined = refine_by_patch((&past.picture, picture), &past.step.pixel_px, &local.affine, klt)
-        .filter(|r| (r.pixel_px - predicted).norm() < 3.0 * local.sigma_px + 0.5);
+        .filter(|r| (r.pixel_px - predicted).norm() < 3.0 * local.sigma_px + 0.5)
+        .filter(|r| [past.step.pixel_px, r.pixel_px].iter().all(|p| keep_out.is_none_or(|k| k.is_clear(p))));
     let (pixel_px, sigma_px) = match &refined {
         Some(r) => (r.pixel_px, r.sigma_px()),
         None => (predicted, local.sigma_px),

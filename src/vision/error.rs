@@ -49,6 +49,9 @@ pub enum VisionError {
         /// The picture's height in px.
         height_px: u32,
     },
+    /// A mask without a place to look at.
+    #[error("the mask leaves nothing to look at: 0 says where not to look, any other number where to look")]
+    MaskCoversAll,
     /// OpenCV refused.
     #[error("OpenCV could not {action}: {source}")]
     OpenCv {

@@ -3,16 +3,18 @@
 use super::descriptor::{Descriptor, Orientation, describe};
 use super::front_end::FrameReport;
 use super::matching::{Described, IndexMatch, match_features, match_features_guided};
+use super::sequence::Job;
 use super::sharpen::Link;
 use super::silhouette::{bright_centroid_px, inside_silhouette};
 use super::tracks::SharedPoint;
 use super::{
     Feature, FrameStatus, FrontEndConfig, FrontEndMode, MatchedPair, PixelMatches, VisionError, detect_harris,
 };
-use crate::dataset::{Frame, ImageSequence};
+use crate::dataset::Frame;
 use crate::geometry::Camera;
 use image::GrayImage;
 use nalgebra::{UnitQuaternion, Vector2};
+use std::borrow::Cow;
 use std::time::Instant;
 
 /// A picture's features and descriptors; the picture itself until its pairs are solved.
@@ -31,18 +33,17 @@ pub(super) fn milliseconds(start: Instant) -> f64 {
 
 impl FrameFeatures {
     /// Loads a picture, finds its features and describes them; a picture that cannot be loaded is an outcome.
-    pub(super) fn find(sequence: &ImageSequence, frame: &Frame, config: &FrontEndConfig) -> Result<Self, VisionError> {
+    pub(super) fn find(job: &Job, frame: &Frame) -> Result<Self, VisionError> {
+        let config = job.config;
         let start = Instant::now();
-        let picture = match sequence.load(frame) {
+        let picture = match job.sequence.load(frame) {
             Ok(picture) => picture,
             Err(error) => return Ok(FrameFeatures::none(FrameReport::unusable(frame, &error))),
         };
         let load_ms = milliseconds(start);
         let start = Instant::now();
-        let about_center = config.mode == FrontEndMode::FixedCenter;
-        let mask = about_center.then(|| inside_silhouette(&picture, config.fixed_center.limb_margin_px)).transpose()?;
-        let centroid_px = if about_center { bright_centroid_px(&picture)? } else { None };
-        let features = detect_harris(&picture, mask.as_ref(), &config.detector)?;
+        let (mask, centroid_px) = where_to_look(job, &picture)?;
+        let features = detect_harris(&picture, mask.as_deref(), &config.detector)?;
         let detect_ms = milliseconds(start);
         let start = Instant::now();
         let upright = describe(&picture, &features, Orientation::Upright)?;
@@ -82,6 +83,23 @@ impl FrameFeatures {
         self.upright = Vec::new();
         self.turned = Vec::new();
     }
+}
+
+/// Where features may lie (everywhere if `None`), and the middle of the body.
+type Outlook<'a> = (Option<Cow<'a, GrayImage>>, Option<Vector2<f64>>);
+
+/// All over the picture, or inside a body's silhouette, and always clear of what the mask leaves out.
+fn where_to_look<'a>(job: &'a Job, picture: &GrayImage) -> Result<Outlook<'a>, VisionError> {
+    let keep_out = job.keep_out.as_ref();
+    if job.config.mode == FrontEndMode::Auto {
+        return Ok((keep_out.map(|k| Cow::Borrowed(k.clear())), None));
+    }
+    let seen = keep_out.map_or(Cow::Borrowed(picture), |k| Cow::Owned(k.blackened(picture)));
+    let mut inside = inside_silhouette(&seen, job.config.fixed_center.limb_margin_px)?;
+    if let Some(keep_out) = keep_out {
+        inside.iter_mut().zip(keep_out.clear().iter()).for_each(|(inside, clear)| *inside = (*inside).min(*clear));
+    }
+    Ok((Some(Cow::Owned(inside)), bright_centroid_px(&seen)?))
 }
 
 /// Ways to match, the most selective first.

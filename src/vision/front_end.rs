@@ -2,6 +2,7 @@
 
 use super::{FrameStatus, RelativeRotation, TrackObservation};
 use crate::dataset::{DatasetError, DesignatedPoint, Frame};
+use image::GrayImage;
 use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector2, Vector3};
 use std::ops::Range;
 
@@ -19,11 +20,14 @@ pub struct TrackInputs<'a> {
     pub rotation_prior: Option<RotationPrediction<'a>>,
     /// The landing point in the first picture.
     pub designated: Option<DesignatedPoint>,
+    /// Where to look, in all pictures alike: not where it is 0 (parts of the spacecraft). Features and their patches stay
+    /// clear of the zeros. Of the camera's size.
+    pub mask: Option<&'a GrayImage>,
 }
 
 impl Default for TrackInputs<'_> {
     fn default() -> Self {
-        TrackInputs { frames: 0..usize::MAX, every: 1, rotation_prior: None, designated: None }
+        TrackInputs { frames: 0..usize::MAX, every: 1, rotation_prior: None, designated: None, mask: None }
     }
 }
 

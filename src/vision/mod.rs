@@ -93,6 +93,8 @@ mod harris;
 #[cfg(feature = "vision")]
 mod harris_response;
 #[cfg(feature = "vision")]
+mod keep_out;
+#[cfg(feature = "vision")]
 mod keyframes;
 #[cfg(feature = "vision")]
 mod klt;

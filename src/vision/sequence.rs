@@ -5,6 +5,7 @@ use super::designated::carry_designated;
 use super::fixed_center::{CenterProblem, CenteredPair, rotations_about_center};
 use super::frame_features::milliseconds;
 use super::front_end::{DesignatedStep, FrontEnd, RotationPrediction, TrackInputs};
+use super::keep_out::KeepOut;
 use super::keyframes::keyframe_rotations;
 use super::pair_order::rotations_in_order;
 use super::rivals::settle_rivals;
@@ -20,6 +21,7 @@ pub(super) struct Job<'a> {
     pub(super) sequence: &'a ImageSequence,
     pub(super) config: &'a FrontEndConfig,
     pub(super) prior: Option<RotationPrediction<'a>>,
+    pub(super) keep_out: Option<KeepOut<'a>>,
 }
 
 /// Wall times of stages, one after the other.
@@ -61,7 +63,7 @@ impl Job<'_> {
 /// threads, times aside.
 ///
 /// # Errors
-/// Fewer than two pictures that can be read, a parameter out of range, or OpenCV's refusal.
+/// Fewer than two pictures that can be read, a parameter out of range, a mask that does not fit, or OpenCV's refusal.
 pub fn track_sequence(
     sequence: &ImageSequence,
     config: &FrontEndConfig,
@@ -71,7 +73,9 @@ pub fn track_sequence(
     config.validate()?;
     opencv::core::set_num_threads(1).map_err(VisionError::opencv("set its number of threads"))?;
     let mut chosen = chosen_frames(sequence, inputs)?;
-    let job = Job { sequence, config, prior: inputs.rotation_prior };
+    let keep_out =
+        inputs.mask.map(|m| KeepOut::new(m, config.klt.half_px, sequence.sensor.camera.size_px())).transpose()?;
+    let job = Job { sequence, config, prior: inputs.rotation_prior, keep_out };
     let mut laps = Laps::start();
     let mut tracks = Tracks::new();
     let mut chain = link(&job, &chosen, &mut tracks, progress)?;
