@@ -9,6 +9,7 @@ mod files;
 mod gaps;
 mod landing_camera;
 mod likelihood;
+mod lost_tracks;
 mod masks;
 #[cfg(feature = "render")]
 mod rendered;

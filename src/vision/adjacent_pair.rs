@@ -1,11 +1,13 @@
 //! One pair of adjacent pictures: matched, solved, sharpened, solved again.
 
 use super::frame_features::{FrameFeatures, PairPixels, Way, match_pair, milliseconds};
+use super::local_affine::Match;
 use super::matching::IndexMatch;
 use super::sequence::Job;
 use super::sharpen::{Link, sharpen};
 use super::{PairHints, PairSolution, PairStatus, VisionError, relative_rotation};
 use nalgebra::UnitQuaternion;
+use std::f64::consts::SQRT_2;
 use std::time::Instant;
 
 /// An adjacent pair: its matches and what they say.
@@ -34,9 +36,22 @@ impl Pair {
         }
     }
 
+    /// Whether the matches that agree are of surface points, even if they do not determine the rotation.
+    fn is_usable(&self) -> bool {
+        matches!(self.solution.status, PairStatus::Ok | PairStatus::NoMotion | PairStatus::Degenerate)
+    }
+
+    /// Pixels of the matches that agree with the motion, and 1σ of their differences.
+    pub(super) fn agreeing(&self) -> Vec<Match> {
+        let (pixels, usable) = (&self.pixels, self.is_usable());
+        let both = pixels.pair.from_px.iter().zip(&pixels.pair.to_px).zip(&pixels.sigma_px);
+        let agreeing = both.zip(&self.solution.inliers).filter(|(_, inlier)| usable && **inlier);
+        agreeing.map(|(((from_px, to_px), sigma_px), _)| (*from_px, *to_px, SQRT_2 * sigma_px)).collect()
+    }
+
     /// Matches that may extend tracks, with their links.
     pub(super) fn verified(&self) -> impl Iterator<Item = (IndexMatch, Option<Link>)> + '_ {
-        let usable = matches!(self.solution.status, PairStatus::Ok | PairStatus::NoMotion | PairStatus::Degenerate);
+        let usable = self.is_usable();
         let links = self.links.iter().copied().chain(std::iter::repeat(None));
         let agreeing = self.matches.iter().zip(links).zip(&self.solution.inliers);
         agreeing.filter(move |(_, inlier)| usable && **inlier).map(|((m, link), _)| (*m, link))

@@ -3,6 +3,7 @@
 use super::adjacent_pair::{Pair, solve_sharp_pair};
 use super::frame_features::FrameFeatures;
 use super::front_end::FrameReport;
+use super::lost_tracks::Passage;
 use super::sequence::Job;
 use super::tracks::Tracks;
 use super::{FrameStatus, FrontEndMode, VisionError};
@@ -60,10 +61,10 @@ pub(super) fn link(
         }
         chain.pairs.extend(pairs);
         let last = chain.frames.len().saturating_sub(1);
-        chain.frames[first..last].iter_mut().for_each(FrameFeatures::forget_picture);
         if job.config.mode == FrontEndMode::Auto {
-            chain.extend_tracks(first, tracks);
+            chain.extend_tracks(first, tracks, Some(job));
         }
+        chain.frames[first..last].iter_mut().for_each(FrameFeatures::forget_picture);
     }
     if job.config.mode == FrontEndMode::Auto {
         chain.end_tracks(tracks);
@@ -71,12 +72,21 @@ pub(super) fn link(
     Ok(chain)
 }
 
+/// The way from a picture to the next one.
+fn passage<'a>(job: &'a Job, pair: &Pair, (here, next): (&'a FrameFeatures, &'a FrameFeatures)) -> Passage<'a> {
+    let pictures = (&here.picture, &next.picture);
+    Passage { pictures, matches: pair.agreeing(), klt: &job.config.klt, keep_out: job.keep_out.as_ref() }
+}
+
 impl Chain {
-    /// Extends the tracks along all pairs from number `first` on, and drops what is then done with.
-    pub(super) fn extend_tracks(&mut self, first: usize, tracks: &mut Tracks) {
+    /// Extends the tracks along all pairs from number `first` on, and drops what is then done with. With a `job`, whose
+    /// pictures are then still needed, points that matching lost are followed by their patches.
+    pub(super) fn extend_tracks(&mut self, first: usize, tracks: &mut Tracks, job: Option<&Job>) {
         for (k, pair) in self.pairs.iter_mut().enumerate().skip(first) {
             let (here, next) = (&self.frames[k], &self.frames[k + 1]);
-            tracks.chain(here.report.t_ns, (&here.features, &next.features), pair.verified());
+            let passage = |job| passage(job, pair, (here, next));
+            let passage = job.filter(|job| job.config.klt.follow_lost).map(passage);
+            tracks.chain(here.report.t_ns, (&here.features, &next.features), pair.verified(), passage.as_ref());
             pair.forget_matches();
             self.frames[k].features = Vec::new();
         }

@@ -91,6 +91,9 @@ pub struct KltConfig {
     pub min_correlation: f64,
     /// A point followed there and back must end this near to where it began, px (default 0.5).
     pub max_return_px: f64,
+    /// Whether points whose corners are not found again are followed by their patches (default true); about a fixed centre
+    /// they are not.
+    pub follow_lost: bool,
 }
 
 impl Default for KltConfig {
@@ -102,6 +105,7 @@ impl Default for KltConfig {
             max_off_px: 4.0,
             min_correlation: 0.8,
             max_return_px: 0.5,
+            follow_lost: true,
         }
     }
 }

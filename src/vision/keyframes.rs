@@ -41,7 +41,7 @@ fn keyframe(
 ) -> Result<Option<RelativeRotation>, VisionError> {
     let chained = chained_rotation(chain, from, to);
     let too_far = |rotation: &UnitQuaternion<f64>| rotation.angle() > job.config.keyframe_max_angle_rad;
-    let shared = numbers.shared(from, to);
+    let shared = numbers.shared_by_corners(from, to);
     if chained.as_ref().is_some_and(too_far) || shared.len() < job.config.rotation.min_matches {
         return Ok(None);
     }

@@ -71,7 +71,7 @@ pub fn match_features_guided(
     predict: &dyn Fn(&Vector2<f64>) -> Option<Vector2<f64>>,
     config: &MatcherConfig,
 ) -> Vec<IndexMatch> {
-    let index = CellIndex::new(to.features, config.guided_radius_px);
+    let index = CellIndex::new(to.features.iter().map(|f| &f.pixel_px), config.guided_radius_px);
     let mut best = BestOfBoth::new(from.features.len(), to.features.len());
     for (row, feature) in from.features.iter().enumerate() {
         let (Some(a), Some(predicted)) = (from.descriptors[row], predict(&feature.pixel_px)) else { continue };
@@ -146,26 +146,29 @@ impl BestOfBoth {
     }
 }
 
-/// Features by square cells of a side, so that the neighbours of a pixel lie in 3×3 cells.
-struct CellIndex {
+/// Points by square cells of a side, so that the neighbours of a pixel lie in 3×3 cells.
+pub(super) struct CellIndex {
     side_px: f64,
     cells: std::collections::HashMap<(i64, i64), Vec<usize>>,
 }
 
 impl CellIndex {
-    fn new(features: &[Feature], side_px: f64) -> Self {
+    pub(super) fn new<'a>(points_px: impl Iterator<Item = &'a Vector2<f64>>, side_px: f64) -> Self {
         let mut index = CellIndex { side_px, cells: std::collections::HashMap::new() };
-        for (i, feature) in features.iter().enumerate() {
-            index.cells.entry(index.cell(&feature.pixel_px)).or_default().push(i);
-        }
+        points_px.enumerate().for_each(|(i, pixel_px)| index.insert(i, pixel_px));
         index
+    }
+
+    pub(super) fn insert(&mut self, number: usize, pixel_px: &Vector2<f64>) {
+        self.cells.entry(self.cell(pixel_px)).or_default().push(number);
     }
 
     fn cell(&self, pixel_px: &Vector2<f64>) -> (i64, i64) {
         ((pixel_px.x / self.side_px).floor() as i64, (pixel_px.y / self.side_px).floor() as i64)
     }
 
-    fn near(&self, pixel_px: &Vector2<f64>) -> impl Iterator<Item = usize> + '_ {
+    /// All within a side of a pixel, and some more.
+    pub(super) fn near(&self, pixel_px: &Vector2<f64>) -> impl Iterator<Item = usize> + '_ {
         let (column, row) = self.cell(pixel_px);
         let around = (-1..=1).flat_map(move |j| (-1..=1).map(move |i| (column + i, row + j)));
         around.filter_map(|cell| self.cells.get(&cell)).flatten().copied()

@@ -105,6 +105,8 @@ mod local_affine;
 #[cfg(feature = "vision")]
 mod local_maxima;
 #[cfg(feature = "vision")]
+mod lost_tracks;
+#[cfg(feature = "vision")]
 mod map;
 #[cfg(feature = "vision")]
 mod matching;

@@ -145,7 +145,7 @@ fn solve_about_center(job: &Job, chain: &mut Chain, tracks: &mut Tracks) -> Cent
         let hopeless = pair.solution.status == PairStatus::NoFeatures;
         pair.solution = if hopeless { PairSolution::failed(PairStatus::NoFeatures, 0) } else { solution };
     }
-    chain.extend_tracks(0, tracks);
+    chain.extend_tracks(0, tracks, None);
     chain.end_tracks(tracks);
     Some((solved.center_in_camera, solved.center_covariance_rad2))
 }

@@ -59,6 +59,16 @@ pub fn gyro(from: i64, to: i64) -> Option<UnitQuaternion<f64>> {
     Some(so3::exp(&Vector3::new(0.001, 0.0005, -0.001)) * true_rotation(index(from), index(to)))
 }
 
+/// The ground point in a pixel at a time.
+pub fn on_ground(t: i64, pixel_px: Vector2<f64>) -> Vector3<f64> {
+    ground(&camera(), &pose(index(t)), pixel_px)
+}
+
+/// The pixel of a ground point at a time.
+pub fn pixel_at(t: i64, place: Vector3<f64>) -> Vector2<f64> {
+    camera().project(&(pose(index(t)).inverse() * nalgebra::Point3::from(place)).coords).unwrap()
+}
+
 /// Everything but the times.
 fn without_times(mut result: FrontEnd) -> FrontEnd {
     result.stage_ms.clear();
