@@ -7,10 +7,12 @@
 use super::center_start::{CenterView, best_start, is_near_side};
 use super::pair_fit::{Loss, cost, fit, observed_information};
 use super::pair_models::{AboutCenter, WithCenter};
-use super::smooth_error::{normal_with_spread, refine};
+use super::smooth_error::{COEFFICIENTS, White, refine, spread};
 use super::{FixedCenterConfig, PairSolution, PairStatus, PixelMatches, RotationConfig, RotationModel};
 use crate::geometry::{Camera, so3};
-use nalgebra::{Matrix2, Matrix2x3, Matrix2x5, Matrix3, Matrix3x2, Matrix5, Unit, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{
+    Matrix2, Matrix2x3, Matrix2x5, Matrix3, Matrix3x2, Matrix5, SMatrix, Unit, UnitQuaternion, Vector2, Vector3,
+};
 use rayon::prelude::*;
 
 /// A pair of pictures of the body.
@@ -148,7 +150,8 @@ fn moved_to(center: Unit<Vector3<f64>>, found: AboutCenter, view: &CenterView) -
 }
 
 /// Newton step of the centre over all solved pairs, their rotations eliminated (Schur complement); the covariance is that
-/// of the step where the matches' errors vary smoothly over the picture besides their noise.
+/// of the step where the matches' errors vary smoothly over the picture besides their noise, and alike in all pairs: the
+/// light stands still while the body turns on.
 fn refine_center(
     views: &[&CenterView],
     found: &[Option<AboutCenter>],
@@ -159,18 +162,18 @@ fn refine_center(
     let basis = so3::tangent_basis(&center);
     let off = basis.transpose() * (problem.center_guess.into_inner() - center.into_inner());
     let mut information = Matrix2::identity() * prior;
-    let mut spread = information;
+    let mut by_smooth_error = SMatrix::<f64, 2, COEFFICIENTS>::zeros();
     let mut gradient: Vector2<f64> = -off * prior;
     for (view, model) in views.iter().zip(found).filter_map(|(v, f)| f.map(|f| (v, AboutCenter { center, ..f }))) {
         let scale = super::pair_fit::robust_scale::<3, _>(&model, &view.sights, view.widest);
-        let noise = (problem.config.smooth_error_share, scale);
-        let (all, slope, slope_spread) = normal_with_spread(&WithCenter(model), &view.sights, noise);
-        if let Some(by_center) = without_rotation(&all) {
-            information += by_center * all * by_center.transpose();
-            spread += by_center * slope_spread * by_center.transpose();
-            gradient += by_center * slope;
+        let white = White::of(&WithCenter(model), &view.sights, scale);
+        if let Some(by_center) = without_rotation(&white.information) {
+            information += by_center * white.information * by_center.transpose();
+            by_smooth_error += by_center * white.by_smooth_error;
+            gradient += by_center * white.gradient;
         }
     }
+    let spread = information + spread(&by_smooth_error, problem.config.smooth_error_share);
     let inverse = information.try_inverse().unwrap_or_else(Matrix2::identity);
     let step = -(inverse * gradient);
     let step = step * (0.05 / step.norm().max(0.05));

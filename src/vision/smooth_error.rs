@@ -19,7 +19,7 @@ const MODES: usize = 10;
 /// The first modes, up to the second order; the others have half the variance.
 const LOW_MODES: usize = 6;
 /// Coefficients of the error, two components a mode.
-const COEFFICIENTS: usize = 2 * MODES;
+pub(super) const COEFFICIENTS: usize = 2 * MODES;
 /// Width of the logarithm of the share about what is expected.
 const SHARE_WIDTH: f64 = 0.7;
 
@@ -60,22 +60,32 @@ pub(super) fn refine<const N: usize, M: PairModel<N>>(
     Some(Refined { model, rotation_covariance_rad2 })
 }
 
-/// Information and gradient of a motion as if all errors were white, and the covariance of that gradient, smooth errors
-/// included; over matches within 3σ, `scale` being the noise over the nominal one.
-pub(super) fn normal_with_spread<const N: usize, M: PairModel<N>>(
-    model: &M,
-    sights: &[Sight],
-    (share, scale): (f64, f64),
-) -> (SMatrix<f64, N, N>, SVector<f64, N>, SMatrix<f64, N, N>) {
-    let matrix = model.matrix().0;
-    let near = |s: &&Sight| residual(M::RELATION, &matrix, s).norm() < 3.0 * scale;
-    let inside: Vec<Sight> = sights.iter().filter(near).copied().collect();
-    let sums = Sums::of(model, &inside, (&Places::of(&inside), scale));
-    let mut spread = sums.motion;
-    for (i, column) in sums.mixed.column_iter().enumerate() {
-        spread += column * column.transpose() * variance(i, share);
+/// What a pair says about a motion as if all errors were white: the information, the gradient, and how that gradient moves
+/// with the coefficients of the smooth error.
+pub(super) struct White<const N: usize> {
+    pub(super) information: SMatrix<f64, N, N>,
+    pub(super) gradient: SVector<f64, N>,
+    pub(super) by_smooth_error: SMatrix<f64, N, COEFFICIENTS>,
+}
+
+impl<const N: usize> White<N> {
+    /// Over the matches within 3σ, `scale` being the noise over the nominal one.
+    pub(super) fn of<M: PairModel<N>>(model: &M, sights: &[Sight], scale: f64) -> Self {
+        let matrix = model.matrix().0;
+        let near = |s: &&Sight| residual(M::RELATION, &matrix, s).norm() < 3.0 * scale;
+        let inside: Vec<Sight> = sights.iter().filter(near).copied().collect();
+        let sums = Sums::of(model, &inside, (&Places::of(&inside), scale));
+        White { information: sums.motion, gradient: sums.motion_gradient, by_smooth_error: sums.mixed }
     }
-    (sums.motion, sums.motion_gradient, spread)
+}
+
+/// Covariance of a gradient that moves so with the coefficients of a smooth error.
+pub(super) fn spread<const N: usize>(
+    by_smooth_error: &SMatrix<f64, N, COEFFICIENTS>,
+    share: f64,
+) -> SMatrix<f64, N, N> {
+    let columns = by_smooth_error.column_iter().enumerate();
+    columns.fold(SMatrix::zeros(), |sum, (i, column)| sum + column * column.transpose() * variance(i, share))
 }
 
 /// Variance of a coefficient over that of the noise.
@@ -228,5 +238,68 @@ impl<const N: usize> Eliminated<N> {
             gradient / scale.powi(2) - taken * (r.x / scale) + (j - taken) * g.dot(&self.error)
         };
         sights.iter().map(score).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::so3::exp;
+    use crate::vision::pair_models::General;
+    use nalgebra::{Unit, Vector3};
+
+    fn model() -> General {
+        let rotation = exp(&Vector3::new(0.02, -0.015, 0.1));
+        General { rotation, direction: Unit::new_normalize(Vector3::new(0.4, -0.2, 1.0)) }
+    }
+
+    /// Points at several depths, seen without noise.
+    fn sights() -> Vec<Sight> {
+        let from_covariance = Matrix2::new(4.0, 1.0, 1.0, 2.0) * 1e-8;
+        let to_covariance = Matrix2::new(3.0, -1.0, -1.0, 5.0) * 1e-8;
+        let place = |k: usize| Vector2::new(0.11 * (k % 5) as f64 - 0.2, 0.07 * (k / 5) as f64 - 0.25);
+        let sight = |k: usize| {
+            let inverse_depth = 0.02 * (1.0 + 0.3 * (k % 3) as f64);
+            let p = model().rotation * place(k).push(1.0) + model().direction.into_inner() * inverse_depth;
+            Sight { from: place(k), to: p.xy() / p.z, from_covariance, to_covariance }
+        };
+        (0..40).map(sight).collect()
+    }
+
+    /// Greatest difference between the derivatives by the coefficients and those by differences of the residual, over the
+    /// greatest of them, where a coefficient of 1 moves the second point by its noise against the first times `size`.
+    fn off(size: f64) -> f64 {
+        const STEP: f64 = 1e-3;
+        let (matrix, _) = model().matrix();
+        let (all, mut worst, mut greatest) = (sights(), 0.0f64, 0.0f64);
+        let places = Places::of(&all);
+        for sight in &all {
+            let by = places.by_coefficients(&matrix, sight);
+            let factor = sight.to_covariance.cholesky().expect("positive").l() * std::f64::consts::SQRT_2 * size;
+            for i in 0..COEFFICIENTS {
+                let error = factor.column(i / MODES) * places.modes(sight)[i % MODES] * STEP;
+                let at = |to: Vector2<f64>| residual(Relation::Epipolar, &matrix, &Sight { to, ..*sight }).x;
+                let numeric = (at(sight.to + error) - at(sight.to - error)) / (2.0 * STEP);
+                (worst, greatest) = (worst.max((numeric - by[i]).abs()), greatest.max(by[i].abs()));
+            }
+        }
+        worst / greatest
+    }
+
+    #[test]
+    fn the_derivative_by_a_coefficient_is_that_of_the_residual() {
+        assert!(off(1.0) < 5e-3, "{}", off(1.0));
+        assert!(off(1.1) > 0.05, "an error larger by a tenth is noticed: {}", off(1.1));
+    }
+
+    #[test]
+    fn a_smooth_error_takes_information_away_and_more_with_its_share() {
+        let all = sights();
+        let sums = Sums::of(&model(), &all, (&Places::of(&all), 1.0));
+        let left = |share: f64| sums.eliminated(share).expect("positive").information;
+        let least = |m: SMatrix<f64, 5, 5>| m.symmetric_eigenvalues().min() / sums.motion.trace();
+        assert!(least(sums.motion - left(0.01)) > -1e-9 && least(left(0.01) - left(0.1)) > -1e-9);
+        assert!((left(1e-12) - sums.motion).norm() < 1e-6 * sums.motion.norm());
+        assert!((left(0.1) - sums.motion).norm() > 1e-3 * sums.motion.norm());
     }
 }
