@@ -119,7 +119,9 @@ fn a_patch_is_exactly_its_piece_of_terrain() {
     for _ in 0..60 {
         let edge_m = 10.0_f64.powf(random.random_range(-1.0..4.0));
         let low = Vector2::from_fn(|_, _| random.random_range(-3e3..3e3));
-        let detail = GroundDetail { feature_m: 0.02 * edge_m, height_m: 0.01 * edge_m, ..GroundDetail::default() };
+        let details = [0.01, 0.02].map(|share| share * edge_m);
+        let detail =
+            GroundDetail { height_m: details[0], feature_m: details[1], rock_m: details[0], ..GroundDetail::default() };
         let patch = terrain.patch(&low, &low.add_scalar(edge_m), &detail);
         for _ in 0..50 {
             let at = low + Vector2::from_fn(|_, _| random.random_range(0.0..=1.0)) * edge_m;

@@ -1,9 +1,10 @@
-//! Draws terrain tiles (`shaders/terrain_geometry.wgsl`).
+//! Draws terrain tiles and the rocks on them (`shaders/terrain_geometry.wgsl`).
 
 use super::geometry_pass::{GeometryKind, GeometryPipelines, Role, buffer, storage_entry, uniform_entry};
 use super::gpu_data::{Geometry, Tile};
 use super::terrain_levels::{LevelRange, ViewVolume, choose_tiles};
 use super::terrain_pool::TilePool;
+use super::terrain_rocks::rock_reach_m;
 use super::terrain_tile::{SIDE, TileKey};
 use super::{Gpu, RenderError};
 use crate::scene::{Terrain, View};
@@ -12,6 +13,8 @@ use wgpu::util::DeviceExt;
 
 /// Least height above the ground in m.
 const LEAST_CLEARANCE_M: f64 = 0.02;
+/// Indices of rocks for which there is room at first.
+const FIRST_ROCK_INDICES: usize = 1 << 16;
 
 /// The picture shows both sides: slivers of vertices that have nearly slid onto each other face either way by rounding, and
 /// none may be missing. The shadow map leaves out the ground that faces the Sun (its right and up and the direction of light
@@ -32,46 +35,49 @@ pub(super) struct DrawnTiles {
 #[derive(Debug)]
 pub(super) struct TerrainGeometry {
     terrain: Terrain,
-    pipelines: GeometryPipelines,
     pool: TilePool,
     uniforms: [wgpu::Buffer; 2],
-    tiles: wgpu::Buffer,
-    groups: [wgpu::BindGroup; 2],
-    indices: wgpu::Buffer,
+    ground: Drawn,
+    rocks: Drawn,
+    /// Of one tile, and of all rocks.
+    indices: [wgpu::Buffer; 2],
     /// Tiles that the picture and the shadow map show: the first ones.
     tile_counts: [u32; 2],
+    /// The same for indices of rocks.
+    rock_counts: [u32; 2],
+}
+
+/// The ground, or the rocks on it, as they are drawn.
+#[derive(Debug)]
+struct Drawn {
+    pipelines: GeometryPipelines,
+    /// Where each tile, or each page of rocks, lies.
+    places: wgpu::Buffer,
+    groups: [wgpu::BindGroup; 2],
 }
 
 impl TerrainGeometry {
     pub(super) fn new(gpu: &Gpu, terrain: &Terrain) -> Self {
-        let kind = GeometryKind {
-            source: include_str!("../../shaders/terrain_geometry.wgsl"),
-            entries: ["vertex", "fragment"],
-            shadow_entry: "shadow_vertex",
-            buffers: &[],
-            bindings: &[uniform_entry(0, wgpu::ShaderStages::VERTEX), storage_entry(1), storage_entry(2)],
-            culled: CULLED,
-        };
-        let pipelines = GeometryPipelines::new(gpu, &kind);
         let pool = TilePool::new(gpu);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniforms = [0, 1].map(|_| buffer(gpu, size_of::<Geometry>() as u64, usage));
-        let tiles = tile_buffer(gpu, &pool);
-        let groups = bind(gpu, &pipelines, [&uniforms[0], &uniforms[1]], [&tiles, pool.buffer()]);
-        let indices = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        let ground = Drawn::new(gpu, ["vertex", "shadow_vertex"], &uniforms, (pool.buffer(), pool.capacity()));
+        let pages = (pool.rocks().buffer(), pool.rocks().capacity());
+        let rocks = Drawn::new(gpu, ["rock_vertex", "rock_shadow_vertex"], &uniforms, pages);
+        let tile_indices = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("tile indices"),
             contents: bytemuck::cast_slice(&tile_indices()),
             usage: wgpu::BufferUsages::INDEX,
         });
         TerrainGeometry {
             terrain: terrain.clone(),
-            pipelines,
             pool,
             uniforms,
-            tiles,
-            groups,
-            indices,
+            ground,
+            rocks,
+            indices: [tile_indices, index_buffer(gpu, FIRST_ROCK_INDICES)],
             tile_counts: [0; 2],
+            rock_counts: [0; 2],
         }
     }
 
@@ -106,19 +112,23 @@ impl TerrainGeometry {
         levels: &LevelRange,
     ) -> Result<DrawnTiles, RenderError> {
         let keys = choose_tiles(&self.terrain, volume, levels);
-        let capacity = self.pool.capacity();
+        let capacities = [self.pool.capacity(), self.pool.rocks().capacity()];
         let slots = self.pool.place(gpu, &self.terrain, &keys)?;
-        let (seen, unseen): (Vec<_>, Vec<_>) =
-            keys.iter().zip(slots).partition(|(key, _)| volume.shows_tile(key, self.pool.heights_m(key)));
-        if self.pool.capacity() != capacity {
-            self.tiles = tile_buffer(gpu, &self.pool);
-            let uniforms = [&self.uniforms[0], &self.uniforms[1]];
-            self.groups = bind(gpu, &self.pipelines, uniforms, [&self.tiles, self.pool.buffer()]);
+        let shows = |key: &TileKey| {
+            let reach_m = rock_reach_m(&self.terrain, key.spacing_m());
+            volume.shows_tile(key, self.pool.heights_m(key), reach_m)
+        };
+        let (seen, unseen): (Vec<_>, Vec<_>) = keys.iter().zip(slots).partition(|(key, _)| shows(key));
+        if capacities != [self.pool.capacity(), self.pool.rocks().capacity()] {
+            self.ground.bind(gpu, &self.uniforms, (self.pool.buffer(), self.pool.capacity()));
+            let pages = self.pool.rocks();
+            self.rocks.bind(gpu, &self.uniforms, (pages.buffer(), pages.capacity()));
         }
         let anchor_m = Self::anchor_m(&volume.camera_in_site_m);
         let tiles: Vec<Tile> = seen.iter().chain(&unseen).map(|(key, slot)| tile(key, *slot, &anchor_m)).collect();
-        gpu.queue.write_buffer(&self.tiles, 0, bytemuck::cast_slice(&tiles));
+        gpu.queue.write_buffer(&self.ground.places, 0, bytemuck::cast_slice(&tiles));
         self.tile_counts = [seen.len(), tiles.len()].map(|count| count as u32);
+        self.place_rocks(gpu, (&keys_of(&seen), &keys_of(&unseen)), &anchor_m);
         Ok(DrawnTiles {
             height_range_m: self.pool.height_range_m(keys.iter()),
             seen_range_m: self.pool.height_range_m(seen.iter().map(|(key, _)| *key)),
@@ -129,12 +139,79 @@ impl TerrainGeometry {
         gpu.queue.write_buffer(&self.uniforms[role as usize], 0, bytemuck::bytes_of(geometry));
     }
 
+    /// Says where the rocks of tiles lie, and which of them are drawn.
+    fn place_rocks(&mut self, gpu: &Gpu, (seen, unseen): (&[TileKey], &[TileKey]), anchor_m: &Vector2<f64>) {
+        let pages = self.pool.rocks().capacity();
+        let mut places = vec![Tile { base: [0.0; 2], spacing: 1.0, slot: 0 }; pages];
+        let mut indices: Vec<u32> = Vec::new();
+        let mut add = |keys: &[TileKey]| {
+            for key in keys {
+                let rocks = self.pool.rocks_of(key);
+                rocks.pages.iter().for_each(|page| places[*page as usize] = tile(key, 0, anchor_m));
+                indices.extend(&rocks.indices);
+            }
+            indices.len() as u32
+        };
+        self.rock_counts = [add(seen), add(unseen)];
+        if indices.is_empty() {
+            return;
+        }
+        if self.indices[1].size() < size_of_val(&indices[..]) as u64 {
+            self.indices[1] = index_buffer(gpu, indices.len().next_power_of_two());
+        }
+        gpu.queue.write_buffer(&self.rocks.places, 0, bytemuck::cast_slice(&places));
+        gpu.queue.write_buffer(&self.indices[1], 0, bytemuck::cast_slice(&indices));
+    }
+
     pub(super) fn draw(&self, pass: &mut wgpu::RenderPass, role: Role) {
+        self.ground.set(pass, role);
+        pass.set_index_buffer(self.indices[0].slice(..), wgpu::IndexFormat::Uint16);
+        pass.draw_indexed(0..(6 * (SIDE - 1) * (SIDE - 1)) as u32, 0, 0..self.tile_counts[role as usize]);
+        let count = self.rock_counts[role as usize];
+        if count > 0 {
+            self.rocks.set(pass, role);
+            pass.set_index_buffer(self.indices[1].slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(0..count, 0, 0..1);
+        }
+    }
+}
+
+impl Drawn {
+    /// Entry points of the vertex stages of picture and shadow map; vertices, and how many tiles or pages they come in.
+    fn new(
+        gpu: &Gpu,
+        [vertex, shadow_entry]: [&str; 2],
+        uniforms: &[wgpu::Buffer; 2],
+        vertices: (&wgpu::Buffer, usize),
+    ) -> Self {
+        let kind = GeometryKind {
+            source: include_str!("../../shaders/terrain_geometry.wgsl"),
+            entries: [vertex, "fragment"],
+            shadow_entry,
+            buffers: &[],
+            bindings: &[uniform_entry(0, wgpu::ShaderStages::VERTEX), storage_entry(1), storage_entry(2)],
+            culled: CULLED,
+        };
+        let pipelines = GeometryPipelines::new(gpu, &kind);
+        let places = place_buffer(gpu, vertices.1);
+        let groups = bind(gpu, &pipelines, uniforms, [&places, vertices.0]);
+        Drawn { pipelines, places, groups }
+    }
+
+    /// Reads vertices from other buffers than before.
+    fn bind(&mut self, gpu: &Gpu, uniforms: &[wgpu::Buffer; 2], vertices: (&wgpu::Buffer, usize)) {
+        self.places = place_buffer(gpu, vertices.1);
+        self.groups = bind(gpu, &self.pipelines, uniforms, [&self.places, vertices.0]);
+    }
+
+    fn set(&self, pass: &mut wgpu::RenderPass, role: Role) {
         pass.set_pipeline(self.pipelines.of(role));
         pass.set_bind_group(0, &self.groups[role as usize], &[]);
-        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint16);
-        pass.draw_indexed(0..(6 * (SIDE - 1) * (SIDE - 1)) as u32, 0, 0..self.tile_counts[role as usize]);
     }
+}
+
+fn keys_of(tiles: &[(&TileKey, u32)]) -> Vec<TileKey> {
+    tiles.iter().map(|(key, _)| **key).collect()
 }
 
 fn tile(key: &TileKey, slot: u32, anchor_m: &Vector2<f64>) -> Tile {
@@ -142,19 +219,24 @@ fn tile(key: &TileKey, slot: u32, anchor_m: &Vector2<f64>) -> Tile {
     Tile { base: [(x_m - anchor_m.x) as f32, (y_m - anchor_m.y) as f32], spacing: key.spacing_m() as f32, slot }
 }
 
-fn tile_buffer(gpu: &Gpu, pool: &TilePool) -> wgpu::Buffer {
+fn place_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
     let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
-    buffer(gpu, (size_of::<Tile>() * pool.capacity()) as u64, usage)
+    buffer(gpu, (size_of::<Tile>() * count) as u64, usage)
+}
+
+fn index_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
+    let usage = wgpu::BufferUsages::INDEX | wgpu::BufferUsages::COPY_DST;
+    buffer(gpu, (size_of::<u32>() * count) as u64, usage)
 }
 
 fn bind(
     gpu: &Gpu,
     pipelines: &GeometryPipelines,
-    uniforms: [&wgpu::Buffer; 2],
+    uniforms: &[wgpu::Buffer; 2],
     storage: [&wgpu::Buffer; 2],
 ) -> [wgpu::BindGroup; 2] {
     [Role::Picture, Role::Shadow].map(|role| {
-        let buffers = [uniforms[role as usize], storage[0], storage[1]];
+        let buffers = [&uniforms[role as usize], storage[0], storage[1]];
         let entries: Vec<_> = (0..)
             .zip(buffers)
             .map(|(binding, b)| wgpu::BindGroupEntry { binding, resource: b.as_entire_binding() })

@@ -4,6 +4,7 @@
 //! and Game Tools 14(4), 2009. Distance is taken from the place on a plane `height_m` below the camera, so that it is
 //! the same for every vertex that tiles share.
 
+use super::terrain_rocks::rock_reach_m;
 use super::terrain_tile::{COARSEST_LEVEL, FINEST_LEVEL, SHADE_SPACINGS, SIDE, TileKey};
 use crate::scene::Terrain;
 use nalgebra::{Vector2, Vector3};
@@ -90,8 +91,8 @@ fn nearest_m(key: &TileKey, volume: &ViewVolume, levels: &LevelRange) -> f64 {
 
 fn touches(key: &TileKey, terrain: &Terrain, volume: &ViewVolume) -> bool {
     let [x_m, y_m] = key.corner_m();
-    let half_m = 0.5 * key.edge_m();
-    let middle = Vector2::new(x_m + half_m, y_m + half_m);
+    let middle = Vector2::new(x_m, y_m).add_scalar(0.5 * key.edge_m());
+    let half_m = 0.5 * key.edge_m() + rock_reach_m(terrain, key.spacing_m());
     let relief_m = terrain.relief_bound_m(&middle, half_m);
     let height_m = terrain.sample(middle.x, middle.y, &key.detail()).height_m;
     let shadow_m = 0.5 * volume.shadow_in_site_m;
@@ -100,11 +101,12 @@ fn touches(key: &TileKey, terrain: &Terrain, volume: &ViewVolume) -> bool {
 }
 
 impl ViewVolume {
-    /// Whether the camera may see a tile whose vertices lie between two heights in m.
-    pub(super) fn shows_tile(&self, key: &TileKey, [lowest_m, highest_m]: [f64; 2]) -> bool {
+    /// Whether the camera may see a tile whose vertices lie between two heights in m, and reach out of it by a distance in m.
+    pub(super) fn shows_tile(&self, key: &TileKey, [lowest_m, highest_m]: [f64; 2], reach_m: f64) -> bool {
         let [x_m, y_m] = key.corner_m();
         let half = 0.5 * Vector3::new(key.edge_m(), key.edge_m(), highest_m - lowest_m);
-        self.shows(&(Vector3::new(x_m, y_m, lowest_m) + half), &half)
+        let reach = Vector3::new(reach_m, reach_m, 0.0);
+        self.shows(&(Vector3::new(x_m, y_m, lowest_m) + half), &(half + reach))
     }
 
     /// Whether the camera may see something of a box with a middle and half sides in m.

@@ -1,7 +1,9 @@
 //! Terrain tiles on the adapter, kept from frame to frame.
 
 use super::geometry_pass::buffer;
+use super::rock_pages::{PagedRocks, RockPages};
 use super::terrain_fit::fitted_vertices;
+use super::terrain_rocks::{TileRocks, tile_rocks};
 use super::terrain_tile::{TILE_VERTICES, TileKey, TileVertex};
 use super::{Gpu, RenderError};
 use crate::scene::Terrain;
@@ -9,21 +11,23 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 
 const TILE_BYTES: u64 = (TILE_VERTICES * size_of::<TileVertex>()) as u64;
-const FIRST_CAPACITY: usize = 1024;
+const FIRST_CAPACITY: usize = 2048;
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 struct Slot {
     index: u32,
     last_used: u64,
     /// Heights of the lowest and the highest vertex.
     heights_m: [f32; 2],
+    rocks: PagedRocks,
 }
 
-/// A pool of tiles; the one not used for longest makes room.
+/// A pool of tiles and the rocks on them; the tile not used for longest makes room.
 #[derive(Debug)]
 pub(super) struct TilePool {
     buffer: wgpu::Buffer,
     capacity: usize,
+    rocks: RockPages,
     slots: HashMap<TileKey, Slot>,
     free: Vec<u32>,
     frame: u64,
@@ -39,6 +43,7 @@ impl TilePool {
         TilePool {
             buffer: buffer(gpu, TILE_BYTES * capacity as u64, usage),
             capacity,
+            rocks: RockPages::new(gpu),
             slots: HashMap::new(),
             free: (0..capacity as u32).rev().collect(),
             frame: 0,
@@ -54,7 +59,17 @@ impl TilePool {
         self.capacity
     }
 
-    /// Makes all `keys` present and returns their slots. The buffer is a new one if they did not fit.
+    /// Where the rocks' vertices are.
+    pub(super) fn rocks(&self) -> &RockPages {
+        &self.rocks
+    }
+
+    /// Rocks on a tile that is present.
+    pub(super) fn rocks_of(&self, key: &TileKey) -> &PagedRocks {
+        &self.slots[key].rocks
+    }
+
+    /// Makes all `keys` present and returns their slots. Buffers are new ones if they did not fit.
     pub(super) fn place(&mut self, gpu: &Gpu, terrain: &Terrain, keys: &[TileKey]) -> Result<Vec<u32>, RenderError> {
         if keys.len() > self.capacity {
             let capacity = keys.len().next_power_of_two();
@@ -69,13 +84,17 @@ impl TilePool {
         }
         self.frame += 1;
         let missing: Vec<TileKey> = keys.iter().filter(|key| !self.touch(key)).copied().collect();
-        self.make_room(missing.len());
-        let made: Vec<Vec<TileVertex>> = missing.par_iter().map(|key| fitted_vertices(key, terrain)).collect();
-        for (key, vertices) in missing.iter().zip(&made) {
+        let made: Vec<(Vec<TileVertex>, TileRocks)> =
+            missing.par_iter().map(|key| (fitted_vertices(key, terrain), tile_rocks(key, terrain))).collect();
+        let pages = made.iter().map(|(_, rocks)| RockPages::needed(rocks)).sum();
+        self.make_room(missing.len(), pages);
+        self.rocks.reserve(gpu, pages)?;
+        for (key, (vertices, rocks)) in missing.iter().zip(&made) {
             let index = self.free.pop().expect("room was made for every tile");
             gpu.queue.write_buffer(&self.buffer, TILE_BYTES * u64::from(index), bytemuck::cast_slice(vertices));
-            let heights_m = range(vertices.iter().map(|vertex| [vertex[0]; 2]));
-            self.slots.insert(*key, Slot { index, last_used: self.frame, heights_m });
+            let heights_m = range(vertices.iter().map(|vertex| [vertex[0]; 2]).chain(rocks.heights_m()));
+            let rocks = self.rocks.place(gpu, rocks);
+            self.slots.insert(*key, Slot { index, last_used: self.frame, heights_m, rocks });
         }
         Ok(keys.iter().map(|key| self.slots[key].index).collect())
     }
@@ -100,8 +119,8 @@ impl TilePool {
         }
     }
 
-    fn make_room(&mut self, needed: usize) {
-        let lacking = needed.saturating_sub(self.free.len());
+    /// Has idle tiles leave until there is room for tiles, and for pages of rocks as far as that goes.
+    fn make_room(&mut self, tiles: usize, pages: usize) {
         let mut idle: Vec<(u64, u32, TileKey)> = self
             .slots
             .iter()
@@ -109,8 +128,13 @@ impl TilePool {
             .map(|(key, slot)| (slot.last_used, slot.index, *key))
             .collect();
         idle.sort_unstable_by_key(|(last_used, index, _)| (*last_used, *index));
-        for (_, index, key) in idle.into_iter().take(lacking) {
-            self.slots.remove(&key);
+        for (_, index, key) in idle {
+            if self.free.len() >= tiles && self.rocks.free() >= pages {
+                break;
+            }
+            if let Some(slot) = self.slots.remove(&key) {
+                self.rocks.release(&slot.rocks);
+            }
             self.free.push(index);
         }
     }

@@ -1,5 +1,6 @@
 //! Square tiles of terrain vertices, each of one level of a quadtree.
 
+use super::terrain_rocks::TILE_ROCK_SPACINGS;
 use crate::scene::{GroundDetail, GroundSample};
 
 /// Vertices along a tile's edge: `SIDE` in `shaders/terrain_geometry.wgsl`.
@@ -51,13 +52,14 @@ impl TileKey {
         [child(0, 0), child(1, 0), child(0, 1), child(1, 1)]
     }
 
-    /// What this level's vertices show of the ground.
+    /// What this level's vertices show of the ground; smaller rocks stand on it ([`super::terrain_rocks`]).
     pub(super) fn detail(&self) -> GroundDetail {
         let spacing_m = self.spacing_m();
         GroundDetail {
             height_m: HEIGHT_SPACINGS * spacing_m,
             shade_m: SHADE_SPACINGS * spacing_m,
             feature_m: FEATURE_SPACINGS * spacing_m,
+            rock_m: TILE_ROCK_SPACINGS * spacing_m,
             footprint_m: 0.0,
         }
     }

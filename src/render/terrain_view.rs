@@ -63,7 +63,13 @@ impl SeenGround {
 
 /// Details of the ground that are at least this large.
 fn coarse(smallest_m: f64) -> GroundDetail {
-    GroundDetail { height_m: smallest_m, shade_m: f64::INFINITY, feature_m: smallest_m, footprint_m: 0.0 }
+    GroundDetail {
+        height_m: smallest_m,
+        shade_m: f64::INFINITY,
+        feature_m: smallest_m,
+        rock_m: 0.5 * smallest_m,
+        footprint_m: 0.0,
+    }
 }
 
 /// Places on the ground in the picture, relative to the camera, m.

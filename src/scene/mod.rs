@@ -91,7 +91,7 @@ pub use terrain_config::{TerrainConfig, TerrainConfigError};
 pub use terrain_hummock::HummockClass;
 pub use terrain_patch::TerrainPatch;
 pub use terrain_ripple::RippleClass;
-pub use terrain_rock::{RockClass, rock_density_1_m2};
+pub use terrain_rock::{Rock, RockClass, rock_density_1_m2};
 pub use terrain_scatter::{Feature, Scatter};
 pub use terrain_unit::UnitClass;
 pub use truth_config::TruthConfig;

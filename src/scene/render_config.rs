@@ -12,7 +12,7 @@ pub struct RenderConfig {
     pub supersampling: u32,
     /// Edge of the shadow map in texels, 64 to 8192 (default 2048).
     pub shadow_map_px: u32,
-    /// Least spacing of terrain vertices in px, seen face on, 0.25 to 16 (default 1.1); the largest is twice that.
+    /// Least spacing of terrain vertices in px, seen face on, 0.25 to 16 (default 0.8); the largest is twice that.
     pub vertex_spacing_px: f64,
     /// Whether the normal and the albedo of every pixel are read back too (default false). No key of `[render]`: it follows
     /// from `[truth]`.
@@ -22,7 +22,7 @@ pub struct RenderConfig {
 
 impl Default for RenderConfig {
     fn default() -> Self {
-        RenderConfig { supersampling: 2, shadow_map_px: 2048, vertex_spacing_px: 1.1, surface_truth: false }
+        RenderConfig { supersampling: 2, shadow_map_px: 2048, vertex_spacing_px: 0.8, surface_truth: false }
     }
 }
 

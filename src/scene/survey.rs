@@ -122,6 +122,12 @@ impl SurveyLevel {
 
     fn detail(&self) -> GroundDetail {
         let size_m = self.metres_per_px;
-        GroundDetail { height_m: size_m, shade_m: f64::INFINITY, feature_m: size_m, footprint_m: 0.0 }
+        GroundDetail {
+            height_m: size_m,
+            shade_m: f64::INFINITY,
+            feature_m: size_m,
+            rock_m: 0.5 * size_m,
+            footprint_m: 0.0,
+        }
     }
 }

@@ -6,7 +6,7 @@ use super::terrain_features::TerrainFeatures;
 use super::terrain_softened::Softened;
 use super::terrain_unit::DISPLACEMENT;
 use super::{
-    CraterClass, FeatureSample, GroundBase, HummockClass, NoiseOctave, OctaveStrength, Photometry, RippleClass,
+    CraterClass, FeatureSample, GroundBase, HummockClass, NoiseOctave, OctaveStrength, Photometry, RippleClass, Rock,
     RockClass, TerrainConfig, UnitClass,
 };
 use nalgebra::Vector2;
@@ -45,6 +45,8 @@ pub struct GroundDetail {
     pub shade_m: f64,
     /// Diameter that features need to be shown whole; round ones show from half of it, ripples and units from more.
     pub feature_m: f64,
+    /// Diameter of the smallest rock that shows.
+    pub rock_m: f64,
     /// Footprint of a pixel: details near it fade as they do in a picture. 0 shows all.
     pub footprint_m: f64,
 }
@@ -103,10 +105,6 @@ impl Terrain {
             let shown = |f| Softened::new(class.crater(&f), detail.feature_m);
             class.scatter.near(x_m, y_m).for_each(|f| shown(f).add_to(&mut features, &at));
         }
-        for class in self.rocks(detail) {
-            let shown = |f| Softened::new(class.rock(&f), detail.feature_m);
-            class.scatter.near(x_m, y_m).for_each(|f| shown(f).add_to(&mut features, &at));
-        }
         for class in self.hummocks(detail) {
             let shown = |f| Softened::new(class.hummock(&f), detail.feature_m);
             class.scatter.near(x_m, y_m).for_each(|f| shown(f).add_to(&mut features, &at));
@@ -114,7 +112,12 @@ impl Terrain {
         self.ripples(detail).for_each(|class| class.add_to(&mut features, &at, ([None, None], detail)));
         let ground = OctaveSums::new(self, &[], &at, detail);
         self.units(detail).for_each(|class| class.add_to(&mut features, &at, (None, detail), &ground));
-        self.with_features(&ground, &features)
+        let mut tallest = FeatureSample::default();
+        for class in self.rock_classes(detail.rock_m) {
+            let rocks = class.scatter.near(x_m, y_m).filter(|f| f.diameter_m >= detail.rock_m);
+            rocks.for_each(|f| class.rock(&f).raise(&mut tallest, &at));
+        }
+        self.with_features(&ground, &features).under(&tallest)
     }
 
     /// The fractal relief with features on it.
@@ -133,10 +136,32 @@ impl Terrain {
         self.features.craters.iter().take_while(move |c| c.scatter.smallest_m >= smallest_m)
     }
 
-    /// Classes of rocks that a choice of details shows: rocks are high for their size, so smaller ones count too.
-    pub(super) fn rocks(&self, detail: &GroundDetail) -> impl Iterator<Item = &RockClass> {
-        let smallest_m = 0.5 * detail.feature_m;
-        self.features.rocks.iter().take_while(move |r| r.scatter.smallest_m >= smallest_m)
+    /// Classes that may hold rocks of a diameter in m and more.
+    pub(super) fn rock_classes(&self, smallest_m: f64) -> impl Iterator<Item = &RockClass> {
+        self.features.rocks.iter().take_while(move |r| 2.0 * r.scatter.smallest_m >= smallest_m)
+    }
+
+    /// Rocks of the diameters between two, in m, whose centres lie between two corners (site frame, m): on the lower and
+    /// left border, not on the upper and right one.
+    pub fn rocks_in(
+        &self,
+        low_m: &Vector2<f64>,
+        high_m: &Vector2<f64>,
+        [smallest_m, largest_m]: [f64; 2],
+    ) -> Vec<Rock> {
+        let inside = |c: &Vector2<f64>| c.x >= low_m.x && c.y >= low_m.y && c.x < high_m.x && c.y < high_m.y;
+        let classes = self.rock_classes(smallest_m).filter(|class| class.scatter.smallest_m < largest_m);
+        let rocks_of = |class: &RockClass| {
+            let found = class.scatter.within(low_m, high_m).into_iter();
+            let asked = found.filter(|f| f.diameter_m >= smallest_m && f.diameter_m < largest_m && inside(&f.center_m));
+            asked.map(|f| class.rock(&f)).collect::<Vec<_>>()
+        };
+        classes.flat_map(rocks_of).collect()
+    }
+
+    /// Diameter of the largest rock that there may be, in m.
+    pub fn largest_rock_m(&self) -> f64 {
+        self.features.rocks.first().map_or(0.0, |class| 2.0 * class.scatter.smallest_m)
     }
 
     /// Classes of hummocks that a choice of details shows.
@@ -175,6 +200,17 @@ impl Terrain {
     /// Radiance of the sky over that of a sunlit white surface.
     pub fn sky_light(&self) -> f64 {
         self.sky_light
+    }
+}
+
+impl GroundSample {
+    /// The ground with what stands on it; nothing changes where that has no height.
+    pub(super) fn under(self, standing: &FeatureSample) -> GroundSample {
+        GroundSample {
+            height_m: self.height_m + standing.height_m,
+            gradient: self.gradient + standing.gradient,
+            albedo_change: self.albedo_change + standing.albedo,
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 const PROCEDURAL_MEAN_SLOPE: f64 = 0.4;
 /// No procedural ground departs more than this from the height of a place, in m.
 const PROCEDURAL_RELIEF_M: f64 = 400.0;
-/// No rock is higher than this in m: it may stand beside the place.
+/// Nothing that is no rock is higher than this in m for its place: it may stand beside the place.
 const PROCEDURAL_STANDING_M: f64 = 2.0;
 /// No procedural ground is steeper than this, rise over run.
 const PROCEDURAL_STEEPEST: f64 = 5.0;
@@ -44,7 +44,7 @@ impl Terrain {
     /// the place, in m.
     pub fn relief_bound_m(&self, middle_m: &Vector2<f64>, half_edge_m: f64) -> f64 {
         let reach_m = std::f64::consts::SQRT_2 * half_edge_m;
-        let standing_m = (PROCEDURAL_STEEPEST * reach_m).min(PROCEDURAL_STANDING_M);
+        let standing_m = (PROCEDURAL_STEEPEST * reach_m).min(PROCEDURAL_STANDING_M.max(0.8 * self.largest_rock_m()));
         let procedural_m = (PROCEDURAL_MEAN_SLOPE * reach_m).min(PROCEDURAL_RELIEF_M) + standing_m;
         let Some(elevation) = self.base.as_ref().and_then(|b| b.elevation.as_ref()) else { return procedural_m };
         procedural_m + elevation.relief_bound_m(middle_m, reach_m)

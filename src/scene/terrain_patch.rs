@@ -6,9 +6,8 @@ use super::terrain::OctaveSums;
 use super::terrain_bins::Bins;
 use super::terrain_hummock::Hummock;
 use super::terrain_ripple::RippleTables;
-use super::terrain_rock::Rock;
 use super::terrain_softened::Softened;
-use super::{FeatureSample, GroundDetail, GroundSample, RippleClass, Terrain, UnitClass};
+use super::{FeatureSample, GroundDetail, GroundSample, RippleClass, Rock, Terrain, UnitClass};
 use nalgebra::Vector2;
 
 /// A rectangle of terrain; gives exactly what [`Terrain::sample`] gives inside it, faster.
@@ -17,7 +16,7 @@ pub struct TerrainPatch<'a> {
     terrain: &'a Terrain,
     detail: GroundDetail,
     craters: Bins<Softened<Crater>>,
-    rocks: Bins<Softened<Rock>>,
+    rocks: Bins<Rock>,
     hummocks: Bins<Softened<Hummock>>,
     ripples: Vec<(&'a RippleClass, RippleTables)>,
     units: Vec<(&'a UnitClass, UnitTable)>,
@@ -48,9 +47,9 @@ impl Terrain {
             let found = c.scatter.within(low_m, high_m);
             found.into_iter().map(|f| Softened::new(c.crater(&f), detail.feature_m))
         });
-        let rocks = self.rocks(detail).flat_map(|r| {
-            let found = r.scatter.within(low_m, high_m);
-            found.into_iter().map(|f| Softened::new(r.rock(&f), detail.feature_m))
+        let rocks = self.rock_classes(detail.rock_m).flat_map(|r| {
+            let found = r.scatter.within(low_m, high_m).into_iter();
+            found.filter(|f| f.diameter_m >= detail.rock_m).map(|f| r.rock(&f))
         });
         let hummocks = self.hummocks(detail).flat_map(|h| {
             let found = h.scatter.within(low_m, high_m);
@@ -74,9 +73,16 @@ impl TerrainPatch<'_> {
     /// The ground at a place in m inside the rectangle.
     pub fn sample(&self, x_m: f64, y_m: f64) -> GroundSample {
         let at = Vector2::new(x_m, y_m);
+        let mut tallest = FeatureSample::default();
+        self.rocks.near(&at).iter().for_each(|rock| rock.raise(&mut tallest, &at));
+        self.sample_between_rocks(x_m, y_m).under(&tallest)
+    }
+
+    /// The ground at a place in m inside the rectangle as it would be without rocks.
+    pub fn sample_between_rocks(&self, x_m: f64, y_m: f64) -> GroundSample {
+        let at = Vector2::new(x_m, y_m);
         let mut features = FeatureSample::default();
         self.craters.near(&at).iter().for_each(|crater| crater.add_to(&mut features, &at));
-        self.rocks.near(&at).iter().for_each(|rock| rock.add_to(&mut features, &at));
         self.hummocks.near(&at).iter().for_each(|hummock| hummock.add_to(&mut features, &at));
         for (class, [cover, bend]) in &self.ripples {
             class.add_to(&mut features, &at, ([cover.as_ref(), bend.as_ref()], &self.detail));

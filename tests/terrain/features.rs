@@ -225,3 +225,23 @@ fn no_tile_repeats() {
         }
     }
 }
+
+#[test]
+fn the_tallest_of_overlapping_rocks_is_seen() {
+    let rocky = TerrainConfig { rock_abundance: 0.3, site_slope: 1.0, ..TerrainConfig::level() };
+    let terrain = Terrain::new(&rocky, 4);
+    let (low_m, high_m) = (Vector2::new(200.0, 200.0), Vector2::new(215.0, 215.0));
+    let margin_m = rocky.largest_rock_m;
+    let rocks = terrain.rocks_in(&low_m.add_scalar(-margin_m), &high_m.add_scalar(margin_m), [0.0, f64::INFINITY]);
+    let bare = GroundDetail { rock_m: f64::INFINITY, ..GroundDetail::default() };
+    let (mut stacked, mut random) = (0, random_stream(4, "stacks", 0));
+    for _ in 0..5000 {
+        let at = Vector2::new(random.random_range(low_m.x..high_m.x), random.random_range(low_m.y..high_m.y));
+        let heights: Vec<f64> = rocks.iter().map(|r| r.sample(&at).height_m).filter(|h| *h > 0.0).collect();
+        let tallest_m = heights.iter().copied().fold(0.0, f64::max);
+        let found_m = terrain.height_m(at.x, at.y) - terrain.sample(at.x, at.y, &bare).height_m;
+        assert!((found_m - tallest_m).abs() < 1e-9, "{found_m} m for {heights:?}");
+        stacked += usize::from(heights.len() > 1);
+    }
+    assert!(stacked > 50, "only {stacked} places under several rocks");
+}
