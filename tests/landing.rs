@@ -18,3 +18,5 @@ mod monte_carlo;
 mod pixels;
 #[path = "landing/speed.rs"]
 mod speed;
+#[path = "landing/wrong_point.rs"]
+mod wrong_point;

@@ -2,6 +2,7 @@
 
 use super::front_end_files::{write_front_end, write_pictures};
 use super::land_map::known_sightings;
+use super::land_notes::{land_notes, map_note};
 use super::track::run_front_end;
 use super::{PipelineError, Progress, Summary};
 use crate::dataset::{
@@ -76,7 +77,10 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
         rotations: image_rotations(&front_end, &lander_from_camera),
     };
     if let Some(map) = &map {
-        input.known = known_sightings(&sequence, &input, (map, &request.config), (progress, &mut summary))?;
+        let designated = front_end.designated.as_slice();
+        let sighted = known_sightings(&sequence, &input, (map, designated, &request.config), (progress, &mut summary))?;
+        summary.notes.extend(map_note(&sighted.points));
+        input.known = sighted.known;
     }
     let start = Instant::now();
     progress.begin("navigating", input.frame_times_ns.len());
@@ -148,59 +152,15 @@ fn write_result(
     Ok(write_tum(&out.join("trajectory.tum"), &result.epochs.iter().map(pose).collect::<Vec<_>>())?)
 }
 
-fn in_seconds((from_ns, to_ns): (i64, i64)) -> (f64, f64) {
-    (from_ns as f64 * 1e-9, to_ns as f64 * 1e-9)
-}
-
-/// When the filter flew on the IMU alone: for want of images, or since images no longer help so low.
-fn coasting_notes(result: &LandingResult, config: &LandingConfig) -> Vec<String> {
-    let height_at = |t_ns: i64| {
-        result.epochs.iter().find(|e| e.t_ns == t_ns).map_or(f64::INFINITY, |e| e.site_from_lander.translation.z)
-    };
-    let note = |stretch: &(i64, i64)| {
-        let (from_s, to_s) = in_seconds(*stretch);
-        let lowest_m = config.minimum_image_height_m;
-        let why = if height_at(stretch.1) < lowest_m {
-            format!(": images are not used below {lowest_m} m, where they no longer help")
-        } else {
-            String::new()
-        };
-        format!("coasted on the IMU alone from {from_s:.2} s to {to_s:.2} s{why}")
-    };
-    result.coasted.iter().map(note).collect()
-}
-
-/// How well the gyroscope and the images agree, where there are images to tell.
-fn gyro_note(result: &LandingResult) -> Option<String> {
-    let checks: Vec<_> = result.epochs.iter().filter_map(|e| e.rotation_check).collect();
-    let count = checks.len() as f64;
-    let mean = checks.iter().map(|c| c.normalized_squared / 3.0).sum::<f64>() / count;
-    let angle_deg = (checks.iter().map(|c| c.angle_rad.powi(2)).sum::<f64>() / count).sqrt().to_degrees();
-    (!checks.is_empty()).then(|| {
-        format!(
-            "gyroscope against images over {} pairs: {angle_deg:.4}° r.m.s., normalised difference squared {mean:.2} a \
-             degree of freedom (1 if both are as good as they claim)",
-            checks.len()
-        )
-    })
-}
-
 /// Final state with 1σ, counts and notes for the summary.
 fn describe(result: &LandingResult, config: &LandingConfig, summary: &mut Summary) {
     let with_image = result.epochs.iter().filter(|e| e.known_seen || e.unknown_track.is_some()).count();
     summary.counts.insert("epochs".into(), result.epochs.len());
     summary.counts.insert("epochs_with_bearings".into(), with_image);
     summary.counts.insert("bearings_gated".into(), result.epochs.iter().map(|e| e.gated).sum());
-    summary.notes.extend(coasting_notes(result, config));
-    summary.notes.extend(gyro_note(result));
-    let gaps = result.imu_gaps.iter();
-    summary.notes.extend(gaps.map(|gap| {
-        let (from_s, to_s) = in_seconds(gap.interval_ns);
-        format!(
-            "the IMU is silent for {:.2} s between {from_s:.2} s and {to_s:.2} s: its motion was held",
-            gap.bridged_s
-        )
-    }));
+    let left_out = result.epochs.iter().filter(|e| e.contradiction.point_is_wrong && e.gated > 0).count();
+    summary.counts.insert("designated_left_out".into(), left_out);
+    summary.notes.extend(land_notes(result, config));
     summary.counts.insert("map_points_used".into(), result.epochs.iter().map(|e| e.known_points).sum());
     let Some(last) = result.epochs.last() else { return };
     let sigma = last.covariance.diagonal().map(|variance| variance.max(0.0).sqrt());

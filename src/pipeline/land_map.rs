@@ -1,14 +1,39 @@
-//! Known points for a descent: each picture matched with a map from where the filter predicts the camera.
+//! Known points for a descent: each picture matched with a map from where the filter predicts the camera; and whether the
+//! designated point lies where the map says the site's origin is.
 
 use super::{PipelineError, Progress, Summary};
 use crate::dataset::{GroundMap, ImageSequence};
+use crate::navigation::filter::Gate;
 use crate::navigation::landing::{
-    DescentEstimate, FrameInput, ImuRecord, KnownSighting, LandingConfig, LandingError, LandingInput, Navigator,
-    predict, step,
+    CameraMount, CorrectionModel, DescentEstimate, FrameInput, ImuRecord, KnownSighting, LandingConfig, LandingError,
+    LandingInput, Navigator, correct, predict, step,
 };
-use crate::vision::{MapFix, MapMatchConfig, MapMatcher, MapSighting, MapStatus, PredictedCamera};
+use crate::vision::{
+    DesignatedStep, MapFix, MapMatchConfig, MapMatcher, MapSighting, MapStatus, PredictedCamera, TrackObservation,
+};
 use nalgebra::Isometry3;
 use std::time::Instant;
+
+/// Probability that designated point and map agree by [`PointByMap::contradicts`], if both are right.
+const AGREEMENT: f64 = 1.0 - 1e-6;
+
+/// The designated point, seen from where the map says the camera is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PointByMap {
+    pub(super) t_ns: i64,
+    /// Its bearing less that of the site's origin, normalised and squared, 2 degrees of freedom.
+    pub(super) normalized_squared: f64,
+    /// How far its ray passes from the site's origin, m.
+    pub(super) off_m: f64,
+    /// Whether that is more than a χ² test lets pass once in a million times.
+    pub(super) contradicts: bool,
+}
+
+/// What a map says of a descent.
+pub(super) struct SightedByMap {
+    pub(super) known: Vec<KnownSighting>,
+    pub(super) points: Vec<PointByMap>,
+}
 
 /// Sightings of the map's points in every picture of a descent. A filter of its own, by nothing but the IMU and the map,
 /// predicts where the camera is; what each picture adds makes the prediction of the next one better.
@@ -18,15 +43,16 @@ use std::time::Instant;
 pub(super) fn known_sightings(
     sequence: &ImageSequence,
     input: &LandingInput,
-    (map, config): (&GroundMap, &LandingConfig),
+    (map, designated, config): (&GroundMap, &[DesignatedStep], &LandingConfig),
     (progress, summary): (&dyn Progress, &mut Summary),
-) -> Result<Vec<KnownSighting>, PipelineError> {
+) -> Result<SightedByMap, PipelineError> {
     let start = Instant::now();
     let matcher = MapMatcher::new(map, &MapMatchConfig::default())?;
     let record = ImuRecord { samples: &input.imu, noise: &input.imu_noise };
     let mount = input.mount();
     let mut navigator = Navigator::new(&input.initial, config);
-    let (mut last_ns, mut last_height_m, mut known) = (input.initial.t_ns, None, Vec::new());
+    let (mut last_ns, mut last_height_m) = (input.initial.t_ns, None);
+    let (mut known, mut points) = (Vec::new(), Vec::new());
     progress.begin("matching the map", input.frame_times_ns.len());
     for (index, t_ns) in input.frame_times_ns.iter().copied().enumerate() {
         let increment = record.between(last_ns, t_ns, &navigator.biases())?;
@@ -48,14 +74,48 @@ pub(super) fn known_sightings(
             known.extend(sightings);
         }
         let frame = FrameInput { increment, bearings, rotation: None };
-        let stepped = step(navigator, &frame, &mount, config).ok_or(LandingError::BrokeDown { t_ns })?;
-        (navigator, last_ns) = (stepped.0, t_ns);
+        let (after, report) = step(navigator, &frame, &mount, config).ok_or(LandingError::BrokeDown { t_ns })?;
+        if let Some(tracked) = designated.iter().find(|s| s.t_ns == t_ns && report.used() > 0) {
+            points.extend(point_by_map(tracked, &after.estimate, &mount, config));
+        }
+        (navigator, last_ns) = (after, t_ns);
         progress.advance_to(index + 1);
     }
     progress.end();
     summary.counts.insert("map_sightings".into(), known.len());
     summary.timing_ms.insert("map".into(), start.elapsed().as_secs_f64() * 1e3);
-    Ok(known)
+    Ok(SightedByMap { known, points })
+}
+
+/// The tracked point against the site's origin, by an estimate that knows nothing of it. `None` where the origin is not
+/// ahead of the camera, or the pixel has no bearing.
+fn point_by_map(
+    tracked: &DesignatedStep,
+    estimate: &DescentEstimate,
+    mount: &CameraMount,
+    config: &LandingConfig,
+) -> Option<PointByMap> {
+    let observation = TrackObservation {
+        sigma_px: tracked.covariance_px2.symmetric_eigenvalues().max().sqrt(),
+        ..tracked.observation()
+    };
+    let bearing = mount.bearing(&observation, config.sigma_floor_px)?;
+    let model = CorrectionModel {
+        kind: config.filter,
+        gate: Gate { confidence: AGREEMENT },
+        iterations: 1,
+        camera_in_lander_m: mount.camera_in_lander_m(),
+        second_order: config.second_order_noise,
+    };
+    let outcome = *correct(estimate.clone(), &[bearing], &model)?.outcomes.first()?;
+    let state = &estimate.state;
+    let origin_m = -(state.lander_from_site * state.lander_in_site_m) - model.camera_in_lander_m;
+    Some(PointByMap {
+        t_ns: tracked.t_ns,
+        normalized_squared: outcome.normalized_innovation_squared,
+        off_m: origin_m.cross(&bearing.direction_in_lander).norm(),
+        contradicts: !outcome.used,
+    })
 }
 
 /// Where the camera is by an estimate, with the mean 1σ of its axes.

@@ -9,6 +9,7 @@ mod export;
 mod front_end_files;
 mod land;
 mod land_map;
+mod land_notes;
 mod map;
 mod mask;
 mod montecarlo;

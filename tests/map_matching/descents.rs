@@ -44,7 +44,8 @@ impl Descent {
         self.folder.path().join(name)
     }
 
-    fn landed_by(&self, map: Option<&str>) -> Metrics {
+    /// How well the descent was navigated, and what its summary says.
+    fn landed_by(&self, map: Option<&str>) -> (Metrics, Vec<String>) {
         let request = LandRequest {
             folder: self.at("images"),
             out: self.at("landing"),
@@ -52,8 +53,8 @@ impl Descent {
             config: LandingConfig::from_pixels(),
             front_end: FrontEndConfig::default(),
         };
-        land(&request, &Silent).expect("the descent is navigated");
-        evaluate_result(&request.out, &request.folder).expect("the result is evaluated")
+        let summary = land(&request, &Silent).expect("the descent is navigated");
+        (evaluate_result(&request.out, &request.folder).expect("the result is evaluated"), summary.notes)
     }
 
     /// A copy of the map that lies elsewhere.
@@ -80,7 +81,7 @@ fn a_descent_follows_its_map() {
     let level = |metres_per_px: f64, side_m: f64| SurveyLevel { metres_per_px, side_m };
     let levels = [level(1.0, 400.0), level(4.0, 2400.0), level(16.0, 16_000.0)];
     let descent = Descent::new(&overrides.map(String::from), &levels);
-    let [with, without] = [Some("map"), None].map(|map| descent.landed_by(map));
+    let [(with, notes), (without, _)] = [Some("map"), None].map(|map| descent.landed_by(map));
     let horizontal_m = figure(&with, "last_picture_horizontal_error");
     let [yaw_deg, free_deg] = [&with, &without].map(|m| figure(m, "last_picture_yaw_error").abs());
     println!("{horizontal_m} m, yaw {yaw_deg} and {free_deg} degrees");
@@ -89,6 +90,16 @@ fn a_descent_follows_its_map() {
     assert!(yaw_deg < 0.05, "yaw {yaw_deg} degrees");
     assert!(free_deg > 0.05, "yaw is observed without a map: {free_deg} degrees");
     descent.shift_map("shifted", Vector2::new(3.0, -4.0));
-    let off_m = figure(&descent.landed_by(Some("shifted")), "last_picture_horizontal_error");
+    let off_m = figure(&descent.landed_by(Some("shifted")).0, "last_picture_horizontal_error");
     assert!((4.0..6.0).contains(&off_m), "a map that lies 5 m off leads {off_m} m off");
+    // The designated pixel is known to 0.1 px, 7 m of ground from so high: a map that lies 60 m off contradicts it.
+    descent.shift_map("far", Vector2::new(36.0, -48.0));
+    let (_, far) = descent.landed_by(Some("far"));
+    let contradiction =
+        |notes: &[String]| notes.iter().find(|n| n.contains("the map and the designated point")).cloned();
+    assert!(contradiction(&notes).is_none(), "{notes:?}");
+    let said = contradiction(&far).expect("the summary says so");
+    println!("{said}");
+    let lies_m = said.split("lies ").nth(1).and_then(|rest| rest.split(' ').next()).and_then(|m| m.parse::<f64>().ok());
+    assert!(lies_m.is_some_and(|m| (45.0..75.0).contains(&m)), "{said}");
 }

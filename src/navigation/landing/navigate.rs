@@ -91,6 +91,7 @@ fn epoch(t_ns: i64, navigator: &Navigator, report: &StepReport, config: &Landing
         innovation_dof: 2 * report.used(),
         gated: report.outcomes.len() - report.used(),
         known_seen: report.outcomes.iter().any(|o| o.used && !o.known && o.track_id == TrackObservation::DESIGNATED),
+        contradiction: navigator.contradiction,
         known_points: report.outcomes.iter().filter(|o| o.used && o.known).count(),
         rotation_check: report.rotation_check,
         biases: state.biases.map(|biases| (biases, bias_sigma(&navigator.estimate))),

@@ -1,6 +1,6 @@
 //! What the navigation of a descent gives back.
 
-use super::{ImuBiases, RotationCheck};
+use super::{Contradiction, ImuBiases, RotationCheck};
 use nalgebra::{Isometry3, SMatrix, Vector3};
 
 /// The estimate at one time.
@@ -26,6 +26,8 @@ pub struct LandingEpoch {
     pub gated: usize,
     /// Whether the designated point was used.
     pub known_seen: bool,
+    /// How far the contradiction between the filter and the designated point had come after this image.
+    pub contradiction: Contradiction,
     /// Points of a map that were used.
     pub known_points: usize,
     /// Gyroscope against images, where the images told a rotation.
@@ -42,6 +44,14 @@ impl LandingEpoch {
     /// 1σ of position (m), velocity (m/s) and attitude (rad), all in site axes.
     pub fn sigma(&self) -> [f64; 9] {
         std::array::from_fn(|k| self.covariance[(k, k)].max(0.0).sqrt())
+    }
+}
+
+impl LandingResult {
+    /// Stretches of epochs in a row of which something holds: the first and last time of each, ns.
+    pub fn stretches(&self, holds: impl Fn(&LandingEpoch) -> bool) -> Vec<(i64, i64)> {
+        let runs = self.epochs.chunk_by(|a, b| holds(a) == holds(b)).filter(|run| holds(&run[0]));
+        runs.map(|run| (run[0].t_ns, run[run.len() - 1].t_ns)).collect()
     }
 }
 
