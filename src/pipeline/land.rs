@@ -12,7 +12,7 @@ use crate::navigation::landing::{
     ImageRotation, ImuBiases, ImuRecord, LandingConfig, LandingEpoch, LandingInput, LandingResult, navigate,
     write_covariance_csv, write_estimate_csv,
 };
-use crate::vision::{FrontEnd, FrontEndConfig, PairStatus, RelativeRotation, TrackInputs};
+use crate::vision::{DesignatedStep, FrontEnd, FrontEndConfig, PairStatus, RelativeRotation, TrackInputs};
 use nalgebra::Isometry3;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -104,17 +104,24 @@ fn with_gyro_prior(front_end: &FrontEndConfig) -> FrontEndConfig {
     config
 }
 
-/// The filter's options with what the front end says of the designated point: 1σ of the pixel that names it, and of each
-/// step of its track.
+/// The filter's options with what the front end says of the designated point: 1σ of the pixel that names it, and of the
+/// drift of its track in each picture.
 fn with_designated_errors(config: &LandingConfig, front_end: &FrontEnd) -> LandingConfig {
     let steps = &front_end.designated;
     let Some(first) = steps.first() else { return config.clone() };
-    let variance_px2 = steps.iter().skip(1).map(|s| s.step_sigma_px.powi(2)).sum::<f64>();
     LandingConfig {
         designated_sigma_px: first.step_sigma_px,
-        designated_drift_px: (variance_px2 / (steps.len() - 1).max(1) as f64).sqrt(),
+        designated_drift_px: drift_a_picture_px(steps),
         ..config.clone()
     }
+}
+
+/// 1σ in px of independent steps, one a picture, that would lead the track as far off over the ground as its drift does.
+/// The steps that were taken are larger: ties to older pictures take much of their errors back.
+fn drift_a_picture_px(steps: &[DesignatedStep]) -> f64 {
+    let drift_first_px2 = steps.iter().map(|s| s.drift_first_px2).fold(0.0, f64::max);
+    let of_unit_steps = steps.iter().skip(1).map(|s| s.pixel_size.powi(2)).sum::<f64>();
+    if of_unit_steps > 0.0 { (drift_first_px2 / of_unit_steps).sqrt() } else { 0.0 }
 }
 
 /// The rotations between adjacent pictures in lander axes.
@@ -181,4 +188,41 @@ fn describe(result: &LandingResult, config: &LandingConfig, summary: &mut Summar
             "sigma_accelerometer_m_s2": &sigma[3..],
         })),
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Matrix2, Vector2};
+
+    fn steps(step_px: f64, ratio: f64) -> Vec<DesignatedStep> {
+        let mut drift_first_px2 = 0.0;
+        let step = |k: i32| {
+            let pixel_size = ratio.powi(k);
+            drift_first_px2 += if k > 0 { (step_px * pixel_size).powi(2) } else { 0.0 };
+            DesignatedStep {
+                t_ns: i64::from(k),
+                pixel_px: Vector2::zeros(),
+                step_sigma_px: step_px,
+                covariance_px2: Matrix2::identity(),
+                pixel_size,
+                drift_first_px2,
+                t_ns_from: i64::from(k - 1),
+                refined: true,
+            }
+        };
+        (0..50).map(step).collect()
+    }
+
+    #[test]
+    fn independent_steps_drift_by_their_own_size() {
+        for ratio in [1.0, 0.9] {
+            assert!((drift_a_picture_px(&steps(0.04, ratio)) - 0.04).abs() < 1e-12);
+        }
+        let mut held = steps(0.04, 0.9);
+        held.iter_mut().for_each(|s| s.drift_first_px2 *= 0.25);
+        assert!((drift_a_picture_px(&held) - 0.02).abs() < 1e-12, "ties to older pictures that hold the point");
+        assert_eq!(drift_a_picture_px(&held[..1]), 0.0);
+        assert_eq!(drift_a_picture_px(&[]), 0.0);
+    }
 }

@@ -39,6 +39,8 @@ pub(super) fn carry_designated(
         pixel_px: start.pixel_px,
         step_sigma_px: (0.5 * start.covariance_px2.trace()).sqrt(),
         covariance_px2: start.covariance_px2,
+        pixel_size: 1.0,
+        drift_first_px2: 0.0,
         t_ns_from: chosen[first].t_ns,
         refined: false,
     }];

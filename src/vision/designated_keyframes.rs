@@ -117,6 +117,8 @@ impl Keyframes {
             pixel_px: ties.iter().zip(weights.iter()).map(|(tie, w)| tie.pixel_px * *w).sum(),
             step_sigma_px: ties.iter().zip(weights.iter()).map(|(tie, w)| tie.sigma_px * w.abs()).sum(),
             covariance_px2: first_px2 + Matrix2::identity() * ((drift + looks) / (size * size)),
+            pixel_size: size,
+            drift_first_px2: drift + looks,
             t_ns_from: from.step.t_ns,
             refined: ties.iter().any(|tie| tie.refined),
         };
@@ -158,6 +160,8 @@ mod tests {
             pixel_px: Vector2::zeros(),
             step_sigma_px: 0.0,
             covariance_px2: Matrix2::zeros(),
+            pixel_size: 1.0,
+            drift_first_px2: 0.0,
             t_ns_from: 0,
             refined: true,
         };

@@ -81,6 +81,10 @@ pub struct DesignatedStep {
     pub step_sigma_px: f64,
     /// Covariance of the pixel, with the first picture's and every transfer's share, px².
     pub covariance_px2: Matrix2<f64>,
+    /// Size of a pixel on the ground about the point, over that in the first picture.
+    pub pixel_size: f64,
+    /// Variance of the drift over the ground since the first picture, in each coordinate, in squared pixels of that.
+    pub drift_first_px2: f64,
     /// Time of the picture that it was carried from, ns.
     pub t_ns_from: i64,
     /// Whether the grey levels about the point refined what the matches said.
