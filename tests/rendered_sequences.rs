@@ -96,6 +96,10 @@ fn body(scenario: &str) -> Vec<Bar> {
     let known = with_known_center(&images, &tracks);
     bars.push(Bar::stated(format!("{scenario}: median, the centre known"), known.error_deg, "deg"));
     bars.push(Bar::stated(format!("{scenario}: median that its bound predicts"), known.predicted_deg, "deg"));
+    let exact_deg = known.error_of_true_pixels_deg;
+    bars.push(Bar::at_most(format!("{scenario}: median by true pixels, the centre known"), exact_deg, 1e-3, "deg"));
+    let floor_deg = known.error_of_white_noise_deg;
+    bars.push(Bar::stated(format!("{scenario}: median by true pixels and white noise"), floor_deg, "deg"));
     bars
 }
 

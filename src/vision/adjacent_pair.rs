@@ -4,8 +4,8 @@ use super::frame_features::{FrameFeatures, PairPixels, Way, match_pair, millisec
 use super::local_affine::Match;
 use super::matching::IndexMatch;
 use super::sequence::Job;
-use super::sharpen::{Link, sharpen};
-use super::{PairHints, PairSolution, PairStatus, VisionError, relative_rotation};
+use super::sharpen::{Link, Stretch, sharpen};
+use super::{FrontEndMode, PairHints, PairSolution, PairStatus, VisionError, relative_rotation};
 use nalgebra::UnitQuaternion;
 use std::f64::consts::SQRT_2;
 use std::time::Instant;
@@ -65,7 +65,9 @@ pub(super) fn solve_sharp_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatur
         return Ok(pair);
     }
     let start = Instant::now();
-    pair.links = sharpen((&from.picture, &to.picture), (&pair.pixels, &pair.solution.inliers), &job.config.klt);
+    let own = job.config.mode == FrontEndMode::FixedCenter && job.config.fixed_center.stretch_patches;
+    let how = (&job.config.klt, if own { Stretch::Own } else { Stretch::OfMatches });
+    pair.links = sharpen((&from.picture, &to.picture), (&pair.pixels, &pair.solution.inliers), how);
     pair.match_ms += milliseconds(start);
     let start = Instant::now();
     let pixels = pair.pixels.sharpened(&pair.links);

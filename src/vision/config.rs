@@ -163,9 +163,12 @@ pub struct FixedCenterConfig {
     pub rate_gate_rad_s: f64,
     /// …or this fraction of the median, whichever is greater (default 0.2).
     pub rate_gate_ratio: f64,
-    /// Variance of errors that vary smoothly over the picture, as a share of the noise's (default 0.01): the light moves
+    /// Variance of errors that vary smoothly over the picture, as a share of the noise's (default 0.0018): the light moves
     /// over a body that turns.
     pub smooth_error_share: f64,
+    /// Whether a patch's stretch from picture to picture is refined by its own grey levels (default true): a body's surface
+    /// turns away within a few matches, and patches that are askew err alike.
+    pub stretch_patches: bool,
 }
 
 impl Default for FixedCenterConfig {
@@ -175,7 +178,8 @@ impl Default for FixedCenterConfig {
             limb_margin_px: 8,
             rate_gate_rad_s: 1f64.to_radians(),
             rate_gate_ratio: 0.2,
-            smooth_error_share: 0.01,
+            smooth_error_share: 0.0018,
+            stretch_patches: true,
         }
     }
 }

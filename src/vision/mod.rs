@@ -124,6 +124,8 @@ mod pair_order;
 #[cfg(feature = "vision")]
 mod patch;
 #[cfg(feature = "vision")]
+mod patch_stretch;
+#[cfg(feature = "vision")]
 mod picture_noise;
 #[cfg(feature = "vision")]
 mod plausible;

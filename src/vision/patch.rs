@@ -10,13 +10,13 @@ use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 const SETTLED_PX: f64 = 0.01;
 
 /// Residuals of neighbouring pixels share their noise: this many count as one (fitted to rendered ground).
-const SHARED: f64 = 2.7;
+pub(super) const SHARED: f64 = 2.7;
 
 /// What the ground's own change between two pictures costs, px: the error that is left without noise.
-const FLOOR_SIGMA_PX: f64 = 0.02;
+pub(super) const FLOOR_SIGMA_PX: f64 = 0.02;
 
 /// Least variance of residuals: that of rounding, in squared grey levels.
-const LEAST_VARIANCE_DN2: f64 = 1.0 / 12.0;
+pub(super) const LEAST_VARIANCE_DN2: f64 = 1.0 / 12.0;
 
 /// A refined pixel.
 pub(super) struct Refined {
@@ -138,12 +138,12 @@ impl Template {
     }
 }
 
-fn halved_difference(from: &[f32], to: &[f32], out: &mut [f32]) {
+pub(super) fn halved_difference(from: &[f32], to: &[f32], out: &mut [f32]) {
     out.iter_mut().zip(from).zip(to).for_each(|((value, from), to)| *value = 0.5 * (from - to));
 }
 
 /// Dot product in eight strands, which the compiler makes vectors of; always in the same order.
-fn dot(a: &[f32], b: &[f32]) -> f64 {
+pub(super) fn dot(a: &[f32], b: &[f32]) -> f64 {
     let mut strands = [0.0f32; 8];
     let (a, b) = (a.chunks_exact(8), b.chunks_exact(8));
     let rest: f32 = a.remainder().iter().zip(b.remainder()).map(|(x, y)| x * y).sum();
@@ -155,7 +155,7 @@ fn dot(a: &[f32], b: &[f32]) -> f64 {
     strands.iter().map(|s| f64::from(*s)).sum::<f64>() + f64::from(rest)
 }
 
-fn sum(a: &[f32]) -> f64 {
+pub(super) fn sum(a: &[f32]) -> f64 {
     let mut strands = [0.0f32; 8];
     let chunks = a.chunks_exact(8);
     let rest: f32 = chunks.remainder().iter().sum();
@@ -169,7 +169,7 @@ fn sum(a: &[f32]) -> f64 {
 
 /// Grey levels, counted from `zero_dn`, of a square of `2 half + 1` a side about a place, row by row, bilinear; `None` at
 /// the edge.
-fn sample_square(
+pub(super) fn sample_square(
     picture: &GrayImage,
     center_px: &Vector2<f64>,
     (half, zero_dn): (usize, f32),
@@ -198,7 +198,7 @@ fn sample_square(
 }
 
 /// Grey levels of a warped square of `2 half + 1` a side, row by row, bilinear; `None` at the edge.
-fn sample_warped(
+pub(super) fn sample_warped(
     picture: &GrayImage,
     center_px: &Vector2<f64>,
     linear: &Matrix2<f64>,

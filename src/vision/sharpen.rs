@@ -8,6 +8,7 @@ use super::KltConfig;
 use super::frame_features::PairPixels;
 use super::local_affine::{Affine, Match, fit_affine};
 use super::patch::refine_by_patch;
+use super::patch_stretch::refine_with_stretch;
 use image::GrayImage;
 use nalgebra::{Matrix2, Vector2};
 use rayon::prelude::*;
@@ -28,17 +29,26 @@ pub(super) struct Link {
     pub(super) linear: Matrix2<f64>,
 }
 
+/// How patches are stretched before they are aligned.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stretch {
+    /// As the matches about them say.
+    OfMatches,
+    /// By their own grey levels too.
+    Own,
+}
+
 /// A link for each match that agrees with the motion; `None` where the patches do not settle it.
 pub(super) fn sharpen(
     pictures: (&GrayImage, &GrayImage),
     (pixels, inliers): (&PairPixels, &[bool]),
-    klt: &KltConfig,
+    (klt, stretch): (&KltConfig, Stretch),
 ) -> Vec<Option<Link>> {
     let matches: Vec<Match> = (0..pixels.sigma_px.len())
         .map(|i| (pixels.pair.from_px[i], pixels.pair.to_px[i], std::f64::consts::SQRT_2 * pixels.sigma_px[i]))
         .collect();
     let agreeing: Vec<Match> = matches.iter().zip(inliers).filter(|(_, inlier)| **inlier).map(|(m, _)| *m).collect();
-    let link = |(m, inlier): (&Match, &bool)| if *inlier { link(pictures, m, &agreeing, klt) } else { None };
+    let link = |(m, inlier): (&Match, &bool)| if *inlier { link(pictures, m, &agreeing, (klt, stretch)) } else { None };
     matches.par_iter().zip(inliers).map(link).collect()
 }
 
@@ -46,11 +56,14 @@ fn link(
     (old, new): (&GrayImage, &GrayImage),
     (from_px, to_px, _): &Match,
     agreeing: &[Match],
-    klt: &KltConfig,
+    (klt, stretch): (&KltConfig, Stretch),
 ) -> Option<Link> {
     let linear = fit_affine(from_px, agreeing, FEWEST)?.affine.linear;
     let start = Affine::about(from_px, to_px, linear);
-    let refined = refine_by_patch((old, new), from_px, &start, klt)?;
+    let (refined, linear) = match stretch {
+        Stretch::OfMatches => (refine_by_patch((old, new), from_px, &start, klt)?, linear),
+        Stretch::Own => refine_with_stretch((old, new), from_px, &start, klt)?,
+    };
     let near = (refined.pixel_px - to_px).norm() < FARTHEST_PX;
     near.then_some(Link { to_px: refined.pixel_px, sigma_px: refined.sigma_px(), linear })
 }
