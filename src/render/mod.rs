@@ -38,6 +38,7 @@ mod stars;
 mod sub_pictures;
 mod surface;
 mod targets;
+mod terrain_drawn;
 mod terrain_fit;
 mod terrain_geometry;
 mod terrain_levels;

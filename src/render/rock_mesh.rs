@@ -8,7 +8,7 @@ const CHORD_SPACINGS: f64 = 0.08;
 /// The outline's corners are this much more curved than a circle of the rock's radius.
 const CORNER_CURVATURE: f64 = 1.6;
 /// Fewest vertices around a rock.
-const LEAST_SIDES: usize = 8;
+const LEAST_SIDES: usize = 6;
 
 /// The grid of a rock's vertices: `sides` around each of `rings` rings, the last one on the outline, one in the middle, and
 /// once more the last ring, sunk into the ground.

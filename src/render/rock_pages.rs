@@ -59,8 +59,10 @@ impl RockPages {
         if lacking == 0 {
             return Ok(());
         }
-        let capacity = (self.capacity() + lacking).next_power_of_two() as u32;
-        if PAGE_BYTES * u64::from(capacity) > gpu.device.limits().max_storage_buffer_binding_size {
+        let needed = self.capacity() + lacking;
+        let most = (gpu.device.limits().max_storage_buffer_binding_size / PAGE_BYTES) as usize;
+        let capacity = needed.next_power_of_two().min(most) as u32;
+        if needed > most {
             return Err(gpu.error("hold the rocks of this view", "there are too many: raise render.vertex_spacing_px"));
         }
         let larger = page_buffer(gpu, capacity);

@@ -1,7 +1,8 @@
 //! Draws terrain tiles and the rocks on them (`shaders/terrain_geometry.wgsl`).
 
-use super::geometry_pass::{GeometryKind, GeometryPipelines, Role, buffer, storage_entry, uniform_entry};
+use super::geometry_pass::{Role, buffer};
 use super::gpu_data::{Geometry, Tile};
+use super::terrain_drawn::Drawn;
 use super::terrain_levels::{LevelRange, ViewVolume, choose_tiles};
 use super::terrain_pool::TilePool;
 use super::terrain_rocks::rock_reach_m;
@@ -15,13 +16,6 @@ use wgpu::util::DeviceExt;
 const LEAST_CLEARANCE_M: f64 = 0.02;
 /// Indices of rocks for which there is room at first.
 const FIRST_ROCK_INDICES: usize = 1 << 16;
-
-/// The picture shows both sides: slivers of vertices that have nearly slid onto each other face either way by rounding, and
-/// none may be missing. The shadow map leaves out the ground that faces the Sun (its right and up and the direction of light
-/// are right-handed, so that it shows triangles mirrored): light that something keeps from ground has entered what keeps it
-/// away by a side that faces away from the Sun, and without the other side lit ground cannot shadow itself (after Wang and
-/// Molnar, "Second-depth shadow mapping", 1994).
-const CULLED: [Option<wgpu::Face>; 2] = [None, Some(wgpu::Face::Back)];
 
 /// What is known of the tiles of a view.
 #[derive(Debug, Clone, Copy)]
@@ -45,15 +39,6 @@ pub(super) struct TerrainGeometry {
     tile_counts: [u32; 2],
     /// The same for indices of rocks.
     rock_counts: [u32; 2],
-}
-
-/// The ground, or the rocks on it, as they are drawn.
-#[derive(Debug)]
-struct Drawn {
-    pipelines: GeometryPipelines,
-    /// Where each tile, or each page of rocks, lies.
-    places: wgpu::Buffer,
-    groups: [wgpu::BindGroup; 2],
 }
 
 impl TerrainGeometry {
@@ -176,40 +161,6 @@ impl TerrainGeometry {
     }
 }
 
-impl Drawn {
-    /// Entry points of the vertex stages of picture and shadow map; vertices, and how many tiles or pages they come in.
-    fn new(
-        gpu: &Gpu,
-        [vertex, shadow_entry]: [&str; 2],
-        uniforms: &[wgpu::Buffer; 2],
-        vertices: (&wgpu::Buffer, usize),
-    ) -> Self {
-        let kind = GeometryKind {
-            source: include_str!("../../shaders/terrain_geometry.wgsl"),
-            entries: [vertex, "fragment"],
-            shadow_entry,
-            buffers: &[],
-            bindings: &[uniform_entry(0, wgpu::ShaderStages::VERTEX), storage_entry(1), storage_entry(2)],
-            culled: CULLED,
-        };
-        let pipelines = GeometryPipelines::new(gpu, &kind);
-        let places = place_buffer(gpu, vertices.1);
-        let groups = bind(gpu, &pipelines, uniforms, [&places, vertices.0]);
-        Drawn { pipelines, places, groups }
-    }
-
-    /// Reads vertices from other buffers than before.
-    fn bind(&mut self, gpu: &Gpu, uniforms: &[wgpu::Buffer; 2], vertices: (&wgpu::Buffer, usize)) {
-        self.places = place_buffer(gpu, vertices.1);
-        self.groups = bind(gpu, &self.pipelines, uniforms, [&self.places, vertices.0]);
-    }
-
-    fn set(&self, pass: &mut wgpu::RenderPass, role: Role) {
-        pass.set_pipeline(self.pipelines.of(role));
-        pass.set_bind_group(0, &self.groups[role as usize], &[]);
-    }
-}
-
 fn keys_of(tiles: &[(&TileKey, u32)]) -> Vec<TileKey> {
     tiles.iter().map(|(key, _)| **key).collect()
 }
@@ -219,34 +170,9 @@ fn tile(key: &TileKey, slot: u32, anchor_m: &Vector2<f64>) -> Tile {
     Tile { base: [(x_m - anchor_m.x) as f32, (y_m - anchor_m.y) as f32], spacing: key.spacing_m() as f32, slot }
 }
 
-fn place_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
-    let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
-    buffer(gpu, (size_of::<Tile>() * count) as u64, usage)
-}
-
 fn index_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
     let usage = wgpu::BufferUsages::INDEX | wgpu::BufferUsages::COPY_DST;
     buffer(gpu, (size_of::<u32>() * count) as u64, usage)
-}
-
-fn bind(
-    gpu: &Gpu,
-    pipelines: &GeometryPipelines,
-    uniforms: &[wgpu::Buffer; 2],
-    storage: [&wgpu::Buffer; 2],
-) -> [wgpu::BindGroup; 2] {
-    [Role::Picture, Role::Shadow].map(|role| {
-        let buffers = [&uniforms[role as usize], storage[0], storage[1]];
-        let entries: Vec<_> = (0..)
-            .zip(buffers)
-            .map(|(binding, b)| wgpu::BindGroupEntry { binding, resource: b.as_entire_binding() })
-            .collect();
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("terrain geometry"),
-            layout: &pipelines.of(role).get_bind_group_layout(0),
-            entries: &entries,
-        })
-    })
 }
 
 /// Two triangles a cell, counter-clockwise from above; all diagonals run the same way, as those of the coarser grid do.

@@ -10,6 +10,9 @@ use nalgebra::Vector2;
 pub(super) const TILE_ROCK_SPACINGS: f64 = 16.0;
 /// The smallest rocks that are drawn, in spacings.
 const SMALLEST_SPACINGS: f64 = 0.5;
+/// Rocks for each vertex of a tile: where there are more, an octave of diameters less is drawn. Rocks that cover a twentieth of
+/// the ground stay below.
+const MOST_ROCKS_A_VERTEX: f64 = 0.06;
 /// How far the lower edge of a rock's skirt lies below the ground, in spacings.
 const SUNK_SPACINGS: f64 = 0.25;
 /// The ground below rocks that reach no farther than this many spacings is taken to be bilinear.
@@ -44,11 +47,26 @@ pub(super) fn rock_reach_m(terrain: &Terrain, spacing_m: f64) -> f64 {
     Rock::REACH_DIAMETERS * largest_m.min(2.0 * TILE_ROCK_SPACINGS * spacing_m)
 }
 
+/// Diameter in m of the smallest rocks that are drawn among vertices of a spacing in m.
+fn smallest_rock_m(terrain: &Terrain, spacing_m: f64) -> f64 {
+    let (mut smallest_m, mut number_1_m2) = (f64::INFINITY, 0.0);
+    for (class_m, class_1_m2) in terrain.rock_numbers_1_m2() {
+        number_1_m2 += class_1_m2;
+        if class_m < SMALLEST_SPACINGS * spacing_m || number_1_m2 * spacing_m * spacing_m > MOST_ROCKS_A_VERTEX {
+            break;
+        }
+        smallest_m = class_m;
+    }
+    smallest_m.min(terrain.largest_rock_m())
+}
+
 /// Rocks that stand on a tile as meshes.
 pub(super) fn tile_rocks(key: &TileKey, terrain: &Terrain) -> TileRocks {
     let spacing_m = key.spacing_m();
     let corner_m = Vector2::from(key.corner_m());
-    let sizes_m = [SMALLEST_SPACINGS, 2.0 * TILE_ROCK_SPACINGS].map(|s| s * spacing_m);
+    // Those that the coarser level does not show sink as the tile slides onto it.
+    let smallest_m = [1.0, 2.0].map(|spacings| smallest_rock_m(terrain, spacings * spacing_m));
+    let sizes_m = [smallest_m[0], 2.0 * TILE_ROCK_SPACINGS * spacing_m];
     let rocks = terrain.rocks_in(&corner_m, &corner_m.add_scalar(key.edge_m()), sizes_m);
     let mut made = TileRocks::default();
     if rocks.is_empty() {
@@ -62,7 +80,9 @@ pub(super) fn tile_rocks(key: &TileKey, terrain: &Terrain) -> TileRocks {
     let coarser = TileKey { level: key.level + 1, ..*key };
     let between_rocks = |level: &TileKey| GroundDetail { rock_m: f64::INFINITY, ..level.detail() };
     let patches = [key, &coarser].map(|level| terrain.patch(&low_m, &high_m, &between_rocks(level)));
-    rocks.iter().for_each(|rock| made.add(rock, (&corner_m, spacing_m), &patches));
+    for rock in &rocks {
+        made.add(rock, (&corner_m, spacing_m), &patches, rock.diameter_m() < smallest_m[1]);
+    }
     made
 }
 
@@ -75,11 +95,17 @@ impl TileRocks {
         })
     }
 
-    /// Adds a rock to a tile with a corner (m) and a spacing of vertices (m), on the ground of both levels.
-    fn add(&mut self, rock: &Rock, (corner_m, spacing_m): (&Vector2<f64>, f64), patches: &[TerrainPatch; 2]) {
+    /// Adds a rock to a tile with a corner (m) and a spacing of vertices (m), on the ground of both levels; `sinks` says
+    /// whether the coarser one leaves it out.
+    fn add(
+        &mut self,
+        rock: &Rock,
+        (corner_m, spacing_m): (&Vector2<f64>, f64),
+        patches: &[TerrainPatch; 2],
+        sinks: bool,
+    ) {
         let mesh = RockMesh::new(rock, spacing_m);
-        let below: [Ground; 2] = std::array::from_fn(|k| Ground::new(rock, spacing_m, &patches[k]));
-        let fades = f32::from(u8::from(rock.diameter_m() < 2.0 * SMALLEST_SPACINGS * spacing_m));
+        let below = [Ground::new(rock, spacing_m, &patches[0]), Ground::new(rock, 2.0 * spacing_m, &patches[1])];
         let first = self.vertices.len();
         for at_m in mesh.places_m(rock) {
             let local_m = at_m - corner_m;
@@ -87,7 +113,7 @@ impl TileRocks {
             self.vertices.push(RockVertex {
                 ground: [below[0].at(&at_m), below[1].at(&at_m)],
                 rock: [on_it.height_m, on_it.gradient.x, on_it.gradient.y, on_it.albedo].map(|c| c as f32),
-                place: [local_m.x as f32, local_m.y as f32, fades, 0.0],
+                place: [local_m.x as f32, local_m.y as f32, f32::from(u8::from(sinks)), 0.0],
             });
         }
         let outline = self.vertices.len() - mesh.sides();

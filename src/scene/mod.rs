@@ -21,6 +21,7 @@ mod mission_scene;
 mod noise;
 mod noise_octave;
 mod noise_table;
+mod octave_sums;
 mod optical_flow;
 pub mod photometry;
 mod render_config;

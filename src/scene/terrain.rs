@@ -1,13 +1,11 @@
 //! Procedural terrain: fractal relief, craters and albedo, known at every place from kilometres down to centimetres.
 
-use super::noise::NOISE_2D_STEEPEST;
-use super::noise_table::NoiseTable;
+use super::octave_sums::OctaveSums;
 use super::terrain_features::TerrainFeatures;
 use super::terrain_softened::Softened;
-use super::terrain_unit::DISPLACEMENT;
 use super::{
-    CraterClass, FeatureSample, GroundBase, HummockClass, NoiseOctave, OctaveStrength, Photometry, RippleClass, Rock,
-    RockClass, TerrainConfig, UnitClass,
+    CraterClass, FeatureSample, GroundBase, HummockClass, NoiseOctave, OctaveStrength, Photometry, RippleClass,
+    TerrainConfig, UnitClass,
 };
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -124,9 +122,9 @@ impl Terrain {
     pub(super) fn with_features(&self, ground: &OctaveSums, features: &FeatureSample) -> GroundSample {
         GroundSample {
             // In this order, so that the origin comes out at exactly 0.
-            height_m: ground.relief.height_m + features.height_m - self.height_at_origin_m,
-            gradient: ground.relief.gradient + features.gradient,
-            albedo_change: ground.relief.albedo_change + features.albedo,
+            height_m: ground.relief().height_m + features.height_m - self.height_at_origin_m,
+            gradient: ground.relief().gradient + features.gradient,
+            albedo_change: ground.relief().albedo_change + features.albedo,
         }
     }
 
@@ -134,34 +132,6 @@ impl Terrain {
     pub(super) fn craters(&self, detail: &GroundDetail) -> impl Iterator<Item = &CraterClass> {
         let smallest_m = 0.5 * detail.feature_m;
         self.features.craters.iter().take_while(move |c| c.scatter.smallest_m >= smallest_m)
-    }
-
-    /// Classes that may hold rocks of a diameter in m and more.
-    pub(super) fn rock_classes(&self, smallest_m: f64) -> impl Iterator<Item = &RockClass> {
-        self.features.rocks.iter().take_while(move |r| 2.0 * r.scatter.smallest_m >= smallest_m)
-    }
-
-    /// Rocks of the diameters between two, in m, whose centres lie between two corners (site frame, m): on the lower and
-    /// left border, not on the upper and right one.
-    pub fn rocks_in(
-        &self,
-        low_m: &Vector2<f64>,
-        high_m: &Vector2<f64>,
-        [smallest_m, largest_m]: [f64; 2],
-    ) -> Vec<Rock> {
-        let inside = |c: &Vector2<f64>| c.x >= low_m.x && c.y >= low_m.y && c.x < high_m.x && c.y < high_m.y;
-        let classes = self.rock_classes(smallest_m).filter(|class| class.scatter.smallest_m < largest_m);
-        let rocks_of = |class: &RockClass| {
-            let found = class.scatter.within(low_m, high_m).into_iter();
-            let asked = found.filter(|f| f.diameter_m >= smallest_m && f.diameter_m < largest_m && inside(&f.center_m));
-            asked.map(|f| class.rock(&f)).collect::<Vec<_>>()
-        };
-        classes.flat_map(rocks_of).collect()
-    }
-
-    /// Diameter of the largest rock that there may be, in m.
-    pub fn largest_rock_m(&self) -> f64 {
-        self.features.rocks.first().map_or(0.0, |class| 2.0 * class.scatter.smallest_m)
     }
 
     /// Classes of hummocks that a choice of details shows.
@@ -211,120 +181,5 @@ impl GroundSample {
             gradient: self.gradient + standing.gradient,
             albedo_change: self.albedo_change + standing.albedo,
         }
-    }
-}
-
-fn visibility(wavelength_m: f64, footprint_m: f64) -> f64 {
-    if footprint_m > 0.0 { NoiseOctave::visibility(wavelength_m, footprint_m) } else { 1.0 }
-}
-
-/// No terrain has more octaves: halvings from the largest to the smallest wavelength that a configuration may ask for.
-const MOST_OCTAVES: usize = 32;
-
-/// Size of the evaluated details over the wavelength of the finest octave that displaces contacts.
-const FINEST_DISPLACING: f64 = 8.0;
-
-/// What the octaves of a terrain add up to at one place.
-#[derive(Debug)]
-pub(super) struct OctaveSums<'a> {
-    relief: GroundSample,
-    octaves: &'a [NoiseOctave],
-    tables: &'a [Option<NoiseTable>],
-    at: Vector2<f64>,
-    /// Octaves in the relief.
-    count: usize,
-    /// Octaves that displace contacts: more than those in the relief, or contacts would move as finer relief is evaluated.
-    displacing: usize,
-    displacement_m: [f64; MOST_OCTAVES],
-}
-
-impl<'a> OctaveSums<'a> {
-    /// Sums at a place (m); `tables` are those of the first octaves.
-    pub(super) fn new(
-        terrain: &'a Terrain,
-        tables: &'a [Option<NoiseTable>],
-        at: &Vector2<f64>,
-        detail: &GroundDetail,
-    ) -> Self {
-        let flat = GroundSample { height_m: 0.0, gradient: Vector2::zeros(), albedo_change: 0.0 };
-        let mut sums = OctaveSums {
-            relief: terrain.base.as_ref().map_or(flat, |base| base.sample(at.x, at.y, detail)),
-            octaves: &terrain.octaves,
-            tables,
-            at: *at,
-            count: 0,
-            displacing: terrain.octaves.partition_point(|o| o.wavelength_m * FINEST_DISPLACING >= detail.height_m),
-            displacement_m: [0.0; MOST_OCTAVES],
-        };
-        for octave in terrain.octaves.iter().take(MOST_OCTAVES) {
-            let weight = visibility(octave.wavelength_m, detail.footprint_m);
-            if octave.wavelength_m < detail.height_m || weight <= 0.0 {
-                break;
-            }
-            sums.add(octave, weight, detail);
-        }
-        sums
-    }
-
-    fn add(&mut self, octave: &NoiseOctave, weight: f64, detail: &GroundDetail) {
-        let table = self.table(self.count);
-        let [relief, albedo] = if octave.wavelength_m >= detail.shade_m {
-            let noise = octave.sample_planar_from(table, self.at.x, self.at.y);
-            self.relief.gradient += noise.relief_gradient.xy() * (octave.relief_m * weight);
-            self.relief.albedo_change += octave.albedo * noise.albedo * weight;
-            [noise.relief, noise.albedo]
-        } else {
-            octave.values_planar_from(table, self.at.x, self.at.y)
-        };
-        self.relief.height_m += octave.relief_m * relief;
-        self.displacement_m[self.count] = DISPLACEMENT * octave.wavelength_m * albedo;
-        self.count += 1;
-    }
-
-    /// How much the displacement of contacts by the octaves from `first` on can change within a distance, in m.
-    pub(super) fn displacement_change_m(&self, first: usize, within_m: f64) -> f64 {
-        let octaves = self.octaves.iter().take(self.displacing).skip(first);
-        octaves.map(|o| DISPLACEMENT * (NOISE_2D_STEEPEST * within_m).min(2.0 * o.wavelength_m)).sum()
-    }
-
-    fn table(&self, index: usize) -> Option<&'a NoiseTable> {
-        self.tables.get(index).and_then(Option::as_ref)
-    }
-
-    /// The place, m.
-    pub(super) fn at(&self) -> &Vector2<f64> {
-        &self.at
-    }
-
-    /// Displacement in m of contacts by the octaves from `first` on, those outside the relief left out, and the most that
-    /// these can add.
-    pub(super) fn coarse_displacement_m(&self, first: usize) -> (f64, f64) {
-        let coarse_m = self.displacement_m[first.min(self.count)..self.count].iter().sum();
-        (coarse_m, self.fine_octaves(first).map(|o| DISPLACEMENT * o.wavelength_m).sum())
-    }
-
-    /// Displacement in m of contacts by the octaves from `first` on that are outside the relief.
-    pub(super) fn fine_displacement_m(&self, first: usize) -> f64 {
-        let value = |o: &NoiseOctave| o.values_planar_from(None, self.at.x, self.at.y)[1];
-        self.fine_octaves(first).map(|o| DISPLACEMENT * o.wavelength_m * value(o)).sum()
-    }
-
-    fn fine_octaves(&self, first: usize) -> impl Iterator<Item = &NoiseOctave> {
-        self.octaves.iter().take(self.displacing).skip(first.max(self.count))
-    }
-
-    /// Displacement in m of contacts by the octaves from `first` on.
-    pub(super) fn displacement_m(&self, first: usize) -> f64 {
-        self.coarse_displacement_m(first).0 + self.fine_displacement_m(first)
-    }
-
-    /// Gradient of [`OctaveSums::displacement_m`] by the octaves in the relief.
-    pub(super) fn displacement_gradient(&self, first: usize) -> Vector2<f64> {
-        let octaves = self.octaves.iter().enumerate().take(self.count).skip(first);
-        octaves
-            .map(|(index, o)| {
-                o.albedo_gradient_from(self.table(index), self.at.x, self.at.y) * (DISPLACEMENT * o.wavelength_m)
-            })
-            .sum()
     }
 }

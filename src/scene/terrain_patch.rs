@@ -2,7 +2,7 @@
 
 use super::crater::Crater;
 use super::noise_table::NoiseTable;
-use super::terrain::OctaveSums;
+use super::octave_sums::OctaveSums;
 use super::terrain_bins::Bins;
 use super::terrain_hummock::Hummock;
 use super::terrain_ripple::RippleTables;

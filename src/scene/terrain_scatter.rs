@@ -84,6 +84,11 @@ impl Scatter {
             .collect()
     }
 
+    /// Mean number of features a square metre.
+    pub(super) fn number_1_m2(&self) -> f64 {
+        f64::from(FEATURES_PER_CELL) * self.probability / Scatter::cell_of_m(self.smallest_m).powi(2)
+    }
+
     /// Features that may reach a place (m), in a fixed order.
     pub fn near(&self, x_m: f64, y_m: f64) -> impl Iterator<Item = Feature> + '_ {
         let cell_m = Scatter::cell_of_m(self.smallest_m);

@@ -5,7 +5,7 @@
 
 use super::noise::NOISE_2D_STEEPEST;
 use super::noise_table::NoiseTable;
-use super::terrain::OctaveSums;
+use super::octave_sums::OctaveSums;
 use super::terrain_site::grown_from_site;
 use super::{FeatureSample, GroundDetail, NoiseOctave};
 use nalgebra::Vector2;
