@@ -15,19 +15,20 @@ const CULLED: [Option<wgpu::Face>; 2] = [None, Some(wgpu::Face::Back)];
 #[derive(Debug)]
 pub(super) struct Drawn {
     pipelines: GeometryPipelines,
+    parts: Vec<Part>,
+}
+
+/// What comes from one buffer of vertices.
+#[derive(Debug)]
+struct Part {
     /// Where each tile, or each page of rocks, lies.
-    pub places: wgpu::Buffer,
+    places: wgpu::Buffer,
     groups: [wgpu::BindGroup; 2],
 }
 
 impl Drawn {
-    /// Entry points of the vertex stages of picture and shadow map; vertices, and how many tiles or pages they come in.
-    pub(super) fn new(
-        gpu: &Gpu,
-        [vertex, shadow_entry]: [&str; 2],
-        uniforms: &[wgpu::Buffer; 2],
-        vertices: (&wgpu::Buffer, usize),
-    ) -> Self {
+    /// Entry points of the vertex stages of picture and shadow map.
+    pub(super) fn new(gpu: &Gpu, [vertex, shadow_entry]: [&str; 2]) -> Self {
         let kind = GeometryKind {
             source: include_str!("../../shaders/terrain_geometry.wgsl"),
             entries: [vertex, "fragment"],
@@ -36,21 +37,38 @@ impl Drawn {
             bindings: &[uniform_entry(0, wgpu::ShaderStages::VERTEX), storage_entry(1), storage_entry(2)],
             culled: CULLED,
         };
-        let pipelines = GeometryPipelines::new(gpu, &kind);
-        let places = place_buffer(gpu, vertices.1);
-        let groups = bind(gpu, &pipelines, uniforms, [&places, vertices.0]);
-        Drawn { pipelines, places, groups }
+        Drawn { pipelines: GeometryPipelines::new(gpu, &kind), parts: Vec::new() }
     }
 
-    /// Reads vertices from other buffers than before.
-    pub(super) fn bind(&mut self, gpu: &Gpu, uniforms: &[wgpu::Buffer; 2], vertices: (&wgpu::Buffer, usize)) {
-        self.places = place_buffer(gpu, vertices.1);
-        self.groups = bind(gpu, &self.pipelines, uniforms, [&self.places, vertices.0]);
+    /// Reads vertices from these buffers, each of up to `count` tiles or pages.
+    pub(super) fn bind<'a>(
+        &mut self,
+        gpu: &Gpu,
+        uniforms: &[wgpu::Buffer; 2],
+        vertices: impl Iterator<Item = &'a wgpu::Buffer>,
+        count: usize,
+    ) {
+        let part = |vertices: &wgpu::Buffer| {
+            let places = place_buffer(gpu, count);
+            let groups = bind(gpu, &self.pipelines, uniforms, [&places, vertices]);
+            Part { places, groups }
+        };
+        self.parts = vertices.map(part).collect();
     }
 
-    pub(super) fn set(&self, pass: &mut wgpu::RenderPass, role: Role) {
+    /// Buffers that vertices come from.
+    pub(super) fn parts(&self) -> usize {
+        self.parts.len()
+    }
+
+    /// Says where the tiles or pages of a part lie.
+    pub(super) fn place(&self, gpu: &Gpu, part: usize, places: &[Tile]) {
+        gpu.queue.write_buffer(&self.parts[part].places, 0, bytemuck::cast_slice(places));
+    }
+
+    pub(super) fn set(&self, pass: &mut wgpu::RenderPass, role: Role, part: usize) {
         pass.set_pipeline(self.pipelines.of(role));
-        pass.set_bind_group(0, &self.groups[role as usize], &[]);
+        pass.set_bind_group(0, &self.parts[part].groups[role as usize], &[]);
     }
 }
 

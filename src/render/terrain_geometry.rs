@@ -2,6 +2,7 @@
 
 use super::geometry_pass::{Role, buffer};
 use super::gpu_data::{Geometry, Tile};
+use super::rock_pages::BOOK;
 use super::terrain_drawn::Drawn;
 use super::terrain_levels::{LevelRange, ViewVolume, choose_tiles};
 use super::terrain_pool::TilePool;
@@ -10,6 +11,7 @@ use super::terrain_tile::{SIDE, TileKey};
 use super::{Gpu, RenderError};
 use crate::scene::{Terrain, View};
 use nalgebra::{Vector2, Vector3};
+use std::ops::Range;
 use wgpu::util::DeviceExt;
 
 /// Least height above the ground in m.
@@ -37,8 +39,8 @@ pub(super) struct TerrainGeometry {
     indices: [wgpu::Buffer; 2],
     /// Tiles that the picture and the shadow map show: the first ones.
     tile_counts: [u32; 2],
-    /// The same for indices of rocks.
-    rock_counts: [u32; 2],
+    /// The same for indices of rocks, in each buffer of rocks.
+    rock_ranges: Vec<[Range<u32>; 2]>,
 }
 
 impl TerrainGeometry {
@@ -46,9 +48,9 @@ impl TerrainGeometry {
         let pool = TilePool::new(gpu);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniforms = [0, 1].map(|_| buffer(gpu, size_of::<Geometry>() as u64, usage));
-        let ground = Drawn::new(gpu, ["vertex", "shadow_vertex"], &uniforms, (pool.buffer(), pool.capacity()));
-        let pages = (pool.rocks().buffer(), pool.rocks().capacity());
-        let rocks = Drawn::new(gpu, ["rock_vertex", "rock_shadow_vertex"], &uniforms, pages);
+        let mut ground = Drawn::new(gpu, ["vertex", "shadow_vertex"]);
+        ground.bind(gpu, &uniforms, std::iter::once(pool.buffer()), pool.capacity());
+        let rocks = Drawn::new(gpu, ["rock_vertex", "rock_shadow_vertex"]);
         let tile_indices = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("tile indices"),
             contents: bytemuck::cast_slice(&tile_indices()),
@@ -62,7 +64,7 @@ impl TerrainGeometry {
             rocks,
             indices: [tile_indices, index_buffer(gpu, FIRST_ROCK_INDICES)],
             tile_counts: [0; 2],
-            rock_counts: [0; 2],
+            rock_ranges: Vec::new(),
         }
     }
 
@@ -97,21 +99,22 @@ impl TerrainGeometry {
         levels: &LevelRange,
     ) -> Result<DrawnTiles, RenderError> {
         let keys = choose_tiles(&self.terrain, volume, levels);
-        let capacities = [self.pool.capacity(), self.pool.rocks().capacity()];
+        let capacity = self.pool.capacity();
         let slots = self.pool.place(gpu, &self.terrain, &keys)?;
         let shows = |key: &TileKey| {
             let reach_m = rock_reach_m(&self.terrain, key.spacing_m());
             volume.shows_tile(key, self.pool.heights_m(key), reach_m)
         };
         let (seen, unseen): (Vec<_>, Vec<_>) = keys.iter().zip(slots).partition(|(key, _)| shows(key));
-        if capacities != [self.pool.capacity(), self.pool.rocks().capacity()] {
-            self.ground.bind(gpu, &self.uniforms, (self.pool.buffer(), self.pool.capacity()));
-            let pages = self.pool.rocks();
-            self.rocks.bind(gpu, &self.uniforms, (pages.buffer(), pages.capacity()));
+        if capacity != self.pool.capacity() {
+            self.ground.bind(gpu, &self.uniforms, std::iter::once(self.pool.buffer()), self.pool.capacity());
+        }
+        if capacity != self.pool.capacity() || self.pool.rocks().buffers().len() != self.rocks.parts() {
+            self.rocks.bind(gpu, &self.uniforms, self.pool.rocks().buffers(), BOOK);
         }
         let anchor_m = Self::anchor_m(&volume.camera_in_site_m);
         let tiles: Vec<Tile> = seen.iter().chain(&unseen).map(|(key, slot)| tile(key, *slot, &anchor_m)).collect();
-        gpu.queue.write_buffer(&self.ground.places, 0, bytemuck::cast_slice(&tiles));
+        self.ground.place(gpu, 0, &tiles);
         self.tile_counts = [seen.len(), tiles.len()].map(|count| count as u32);
         self.place_rocks(gpu, (&keys_of(&seen), &keys_of(&unseen)), &anchor_m);
         Ok(DrawnTiles {
@@ -126,37 +129,39 @@ impl TerrainGeometry {
 
     /// Says where the rocks of tiles lie, and which of them are drawn.
     fn place_rocks(&mut self, gpu: &Gpu, (seen, unseen): (&[TileKey], &[TileKey]), anchor_m: &Vector2<f64>) {
-        let pages = self.pool.rocks().capacity();
-        let mut places = vec![Tile { base: [0.0; 2], spacing: 1.0, slot: 0 }; pages];
         let mut indices: Vec<u32> = Vec::new();
-        let mut add = |keys: &[TileKey]| {
-            for key in keys {
-                let rocks = self.pool.rocks_of(key);
-                rocks.pages.iter().for_each(|page| places[*page as usize] = tile(key, 0, anchor_m));
-                indices.extend(&rocks.indices);
-            }
-            indices.len() as u32
-        };
-        self.rock_counts = [add(seen), add(unseen)];
-        if indices.is_empty() {
-            return;
+        self.rock_ranges.clear();
+        for book in 0..self.rocks.parts() {
+            let mut places = vec![Tile { base: [0.0; 2], spacing: 1.0, slot: 0 }; BOOK];
+            let first = indices.len() as u32;
+            let mut add = |keys: &[TileKey]| {
+                let found = keys.iter().map(|key| (key, self.pool.rocks_of(key)));
+                for (key, rocks) in found.filter(|(_, rocks)| rocks.book == book) {
+                    rocks.pages.iter().for_each(|page| places[*page as usize] = tile(key, 0, anchor_m));
+                    indices.extend(&rocks.indices);
+                }
+                first..indices.len() as u32
+            };
+            self.rock_ranges.push([add(seen), add(unseen)]);
+            self.rocks.place(gpu, book, &places);
         }
         if self.indices[1].size() < size_of_val(&indices[..]) as u64 {
             self.indices[1] = index_buffer(gpu, indices.len().next_power_of_two());
         }
-        gpu.queue.write_buffer(&self.rocks.places, 0, bytemuck::cast_slice(&places));
         gpu.queue.write_buffer(&self.indices[1], 0, bytemuck::cast_slice(&indices));
     }
 
     pub(super) fn draw(&self, pass: &mut wgpu::RenderPass, role: Role) {
-        self.ground.set(pass, role);
+        self.ground.set(pass, role, 0);
         pass.set_index_buffer(self.indices[0].slice(..), wgpu::IndexFormat::Uint16);
         pass.draw_indexed(0..(6 * (SIDE - 1) * (SIDE - 1)) as u32, 0, 0..self.tile_counts[role as usize]);
-        let count = self.rock_counts[role as usize];
-        if count > 0 {
-            self.rocks.set(pass, role);
-            pass.set_index_buffer(self.indices[1].slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..count, 0, 0..1);
+        pass.set_index_buffer(self.indices[1].slice(..), wgpu::IndexFormat::Uint32);
+        for (book, ranges) in self.rock_ranges.iter().enumerate() {
+            let range = ranges[role as usize].clone();
+            if !range.is_empty() {
+                self.rocks.set(pass, role, book);
+                pass.draw_indexed(range, 0, 0..1);
+            }
         }
     }
 }

@@ -43,7 +43,7 @@ impl TilePool {
         TilePool {
             buffer: buffer(gpu, TILE_BYTES * capacity as u64, usage),
             capacity,
-            rocks: RockPages::new(gpu),
+            rocks: RockPages::default(),
             slots: HashMap::new(),
             free: (0..capacity as u32).rev().collect(),
             frame: 0,
@@ -69,7 +69,7 @@ impl TilePool {
         &self.slots[key].rocks
     }
 
-    /// Makes all `keys` present and returns their slots. Buffers are new ones if they did not fit.
+    /// Makes all `keys` present and returns their slots. The buffer is a new one, and there are more of rocks, if they did not fit.
     pub(super) fn place(&mut self, gpu: &Gpu, terrain: &Terrain, keys: &[TileKey]) -> Result<Vec<u32>, RenderError> {
         if keys.len() > self.capacity {
             let capacity = keys.len().next_power_of_two();
@@ -88,12 +88,11 @@ impl TilePool {
             missing.par_iter().map(|key| (fitted_vertices(key, terrain), tile_rocks(key, terrain))).collect();
         let pages = made.iter().map(|(_, rocks)| RockPages::needed(rocks)).sum();
         self.make_room(missing.len(), pages);
-        self.rocks.reserve(gpu, pages)?;
         for (key, (vertices, rocks)) in missing.iter().zip(&made) {
+            let heights_m = range(vertices.iter().map(|vertex| [vertex[0]; 2]).chain(rocks.heights_m()));
+            let rocks = self.rocks.place(gpu, rocks)?;
             let index = self.free.pop().expect("room was made for every tile");
             gpu.queue.write_buffer(&self.buffer, TILE_BYTES * u64::from(index), bytemuck::cast_slice(vertices));
-            let heights_m = range(vertices.iter().map(|vertex| [vertex[0]; 2]).chain(rocks.heights_m()));
-            let rocks = self.rocks.place(gpu, rocks);
             self.slots.insert(*key, Slot { index, last_used: self.frame, heights_m, rocks });
         }
         Ok(keys.iter().map(|key| self.slots[key].index).collect())
@@ -119,7 +118,7 @@ impl TilePool {
         }
     }
 
-    /// Has idle tiles leave until there is room for tiles, and for pages of rocks as far as that goes.
+    /// Has idle tiles leave until there is room for tiles, and for pages of rocks in the buffers that are kept.
     fn make_room(&mut self, tiles: usize, pages: usize) {
         let mut idle: Vec<(u64, u32, TileKey)> = self
             .slots
@@ -129,7 +128,7 @@ impl TilePool {
             .collect();
         idle.sort_unstable_by_key(|(last_used, index, _)| (*last_used, *index));
         for (_, index, key) in idle {
-            if self.free.len() >= tiles && self.rocks.free() >= pages {
+            if self.free.len() >= tiles && self.rocks.has_room(pages) {
                 break;
             }
             if let Some(slot) = self.slots.remove(&key) {
