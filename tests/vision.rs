@@ -7,6 +7,7 @@ mod center_table;
 mod features;
 mod files;
 mod gaps;
+#[cfg(feature = "render")]
 pub mod known_center;
 mod landing_camera;
 mod likelihood;
