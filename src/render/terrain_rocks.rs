@@ -179,10 +179,12 @@ mod tests {
                 for vertex in tile_rocks(&key, &terrain).vertices {
                     let at_m = corner_m + Vector2::new(f64::from(vertex.place[0]), f64::from(vertex.place[1]));
                     for (ground, level) in vertex.ground.iter().zip([key.level, key.level + 1]) {
-                        let detail = GroundDetail { rock_m: f64::INFINITY, ..TileKey { level, ..key }.detail() };
+                        let level = TileKey { level, ..key };
+                        let detail = GroundDetail { rock_m: f64::INFINITY, ..level.detail() };
                         let off_m = f64::from(ground[0]) - terrain.sample(at_m.x, at_m.y, &detail).height_m;
                         // Bilinear below the smallest rocks.
-                        assert!(off_m.abs() < 0.3 * key.spacing_m(), "{off_m} m off the ground at level {level}");
+                        let spacings = off_m.abs() / level.spacing_m();
+                        assert!(spacings < 0.3, "{off_m} m off the ground at level {}", level.level);
                     }
                     seen += 1;
                 }
