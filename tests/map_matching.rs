@@ -113,7 +113,7 @@ fn points_of_the_map_are_found_where_they_are() {
     assert!(fix.sightings.len() >= 20, "{fix:?}");
     let error_px = median(errors_px(&fix, &pose).iter().map(Vector2::norm).collect());
     println!("median error {error_px} px, normalised {}", normalized(&fix, &pose));
-    assert!(error_px < 0.12, "median error {error_px} px");
+    assert!(error_px < 0.15, "median error {error_px} px");
     assert!(normalized(&fix, &pose) < 1.0);
     let found = fix.camera_from_site.inverse();
     assert!((found.translation.vector - pose.translation.vector).norm() < 0.1, "{found} {pose}");

@@ -167,12 +167,13 @@ mod tests {
     use super::*;
     use crate::scene::TerrainConfig;
 
-    /// What a tile draws of its rocks, on a vertex of each: the ground of its own level, and what the coarser level has there.
+    /// Offsets of the ground below vertices of rocks from the ground that vertices of a level would show there, in spacings:
+    /// bilinear below the smallest rocks, so that a scarp between may be missed.
     #[test]
     fn vertices_stand_on_the_ground_of_both_levels() {
         let terrain = Terrain::new(&TerrainConfig::default(), 5);
         for level in [-6, -4, -1] {
-            let mut seen = 0;
+            let (mut offsets, mut from_corner) = (Vec::new(), Vec::new());
             for x in 40..80 {
                 let key = TileKey { level, x, y: 9 };
                 let corner_m = Vector2::from(key.corner_m());
@@ -181,15 +182,18 @@ mod tests {
                     for (ground, level) in vertex.ground.iter().zip([key.level, key.level + 1]) {
                         let level = TileKey { level, ..key };
                         let detail = GroundDetail { rock_m: f64::INFINITY, ..level.detail() };
-                        let off_m = f64::from(ground[0]) - terrain.sample(at_m.x, at_m.y, &detail).height_m;
-                        // Bilinear below the smallest rocks.
-                        let spacings = off_m.abs() / level.spacing_m();
-                        assert!(spacings < 0.3, "{off_m} m off the ground at level {}", level.level);
+                        let height_m = |at_m: &Vector2<f64>| terrain.sample(at_m.x, at_m.y, &detail).height_m;
+                        offsets.push((f64::from(ground[0]) - height_m(&at_m)) / level.spacing_m());
+                        from_corner.push((f64::from(ground[0]) - height_m(&corner_m)) / level.spacing_m());
                     }
-                    seen += 1;
                 }
             }
-            assert!(seen > 100, "{seen} vertices of rocks at level {level}");
+            let rms = |v: &[f64]| (v.iter().map(|o| o * o).sum::<f64>() / v.len() as f64).sqrt();
+            let (rms, control) = (rms(&offsets), rms(&from_corner));
+            println!("level {level}: {rms:.3} spacings off, {control:.1} from the corner's height");
+            assert!(offsets.len() > 200, "{} vertices of rocks at level {level}", offsets.len());
+            assert!(rms < 0.1, "{rms} spacings off the ground at level {level}");
+            assert!(control > 0.1, "the check cannot tell the ground from a plane");
         }
     }
 
