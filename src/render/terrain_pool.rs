@@ -69,7 +69,8 @@ impl TilePool {
         &self.slots[key].rocks
     }
 
-    /// Makes all `keys` present and returns their slots. The buffer is a new one, and there are more of rocks, if they did not fit.
+    /// Makes all `keys` present and returns their slots. The buffer is a new one, and there are more of rocks, if they did
+    /// not fit.
     pub(super) fn place(&mut self, gpu: &Gpu, terrain: &Terrain, keys: &[TileKey]) -> Result<Vec<u32>, RenderError> {
         if keys.len() > self.capacity {
             let capacity = keys.len().next_power_of_two();

@@ -79,7 +79,7 @@ impl TerrainPatch<'_> {
     }
 
     /// The ground at a place in m inside the rectangle as it would be without rocks.
-    pub fn sample_between_rocks(&self, x_m: f64, y_m: f64) -> GroundSample {
+    fn sample_between_rocks(&self, x_m: f64, y_m: f64) -> GroundSample {
         let at = Vector2::new(x_m, y_m);
         let mut features = FeatureSample::default();
         self.craters.near(&at).iter().for_each(|crater| crater.add_to(&mut features, &at));
