@@ -40,7 +40,7 @@ fn front_end(criterion: &mut Criterion) {
     let (a, b) = (picture(|x, y| (x, y)), picture(|x, y| (1.03 * x + 0.03 * y - 15.0, 1.03 * y - 0.03 * x + 4.0)));
     let config = DetectorConfig { max_features: 2000, ..DetectorConfig::default() };
     let features = [&a, &b].map(|p| detect_harris(p, None, &config).expect("features"));
-    let bits = [(&a, 0), (&b, 1)].map(|(p, i)| describe(p, &features[i], Orientation::Upright).expect("bits"));
+    let bits = [(&a, 0), (&b, 1)].map(|(p, i)| describe_orb(p, &features[i], Orientation::Upright).expect("bits"));
     let described = [0, 1].map(|i| Described { features: &features[i], descriptors: &bits[i] });
     let matcher = MatcherConfig::default();
     let found = match_features(described[0], described[1], &matcher);
@@ -55,10 +55,19 @@ fn front_end(criterion: &mut Criterion) {
         bench.iter(|| detect_harris(black_box(&a), None, &config));
     });
     criterion.bench_function("describe 2000", |bench| {
-        bench.iter(|| describe(black_box(&a), &features[0], Orientation::Upright));
+        bench.iter(|| describe_orb(black_box(&a), &features[0], Orientation::Upright));
     });
     criterion.bench_function("match 2000 x 2000", |bench| {
         bench.iter(|| match_features(black_box(described[0]), described[1], &matcher));
+    });
+    let sums = [(&a, 0), (&b, 1)]
+        .map(|(p, i)| describe_sift(p, &features[i], Orientation::Upright, matcher.sift.patch_px).expect("sums"));
+    let described_by_sift = [0, 1].map(|i| Described { features: &features[i], descriptors: &sums[i] });
+    criterion.bench_function("describe 2000 by SIFT", |bench| {
+        bench.iter(|| describe_sift(black_box(&a), &features[0], Orientation::Upright, matcher.sift.patch_px));
+    });
+    criterion.bench_function("match 2000 x 2000 by SIFT", |bench| {
+        bench.iter(|| match_features(black_box(described_by_sift[0]), described_by_sift[1], &matcher));
     });
     let still = |p: &Vector2<f64>| Some((p + Vector2::new(15.0, -4.0)) / 1.03);
     criterion.bench_function("match 2000 x 2000 within 60 px", |bench| {

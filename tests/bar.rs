@@ -28,6 +28,12 @@ enum Side {
 }
 
 impl Bar {
+    /// The same quantity, told and not judged.
+    #[cfg(feature = "vision")]
+    pub fn without_bound(self) -> Self {
+        Bar { side: Side::Stated, ..self }
+    }
+
     pub fn at_most(quantity: impl Into<String>, measured: f64, bound: f64, unit: &'static str) -> Self {
         Bar { quantity: quantity.into(), measured, bound, unit, side: Side::AtMost }
     }

@@ -1,6 +1,7 @@
 //! The command line as a user meets it: exit codes, one clear error that names the file and the cure, nothing
 //! half-written.
 
+mod descriptors;
 mod folders;
 mod long_folder;
 mod masks;

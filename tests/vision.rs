@@ -4,6 +4,7 @@
 mod bars;
 mod bearings;
 mod center_table;
+mod descriptors;
 mod features;
 mod files;
 mod gaps;

@@ -48,7 +48,7 @@ impl TwoViews {
     fn ours(&self) -> Option<UnitQuaternion<f64>> {
         let config = DetectorConfig { max_features: 2000, ..DetectorConfig::default() };
         let features = self.pictures.each_ref().map(|p| detect_harris(p, None, &config).expect("features"));
-        let bits = [0, 1].map(|i| describe(&self.pictures[i], &features[i], Orientation::Upright).expect("bits"));
+        let bits = [0, 1].map(|i| describe_orb(&self.pictures[i], &features[i], Orientation::Upright).expect("bits"));
         let described = [0, 1].map(|i| Described { features: &features[i], descriptors: &bits[i] });
         let found = match_features(described[0], described[1], &MatcherConfig::default());
         let both = found.iter().map(|m| (&features[0][m.from], &features[1][m.to]));

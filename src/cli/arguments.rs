@@ -1,6 +1,7 @@
 //! Arguments that several subcommands share.
 
-use opnav::pipeline::CameraSource;
+use clap::ValueEnum;
+use opnav::pipeline::{CameraSource, DescriptorKind, FrontEndConfig};
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -53,5 +54,32 @@ impl CameraArguments {
             (None, Some(fov_deg)) => CameraSource::HorizontalFov(fov_deg.to_radians()),
             (None, None) => CameraSource::Folder,
         }
+    }
+}
+
+/// How pictures are tracked.
+#[derive(Debug, clap::Args)]
+pub struct FrontEndArguments {
+    /// What describes a feature when it is matched.
+    #[arg(long, value_enum, default_value = "orb")]
+    descriptor: DescriptorName,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum DescriptorName {
+    /// Comparisons of grey levels: quick.
+    Orb,
+    /// Sums of gradients: slower, for pictures that differ much.
+    Sift,
+}
+
+impl FrontEndArguments {
+    /// Settings with these arguments.
+    pub fn applied_to(&self, mut config: FrontEndConfig) -> FrontEndConfig {
+        config.matcher.descriptor = match self.descriptor {
+            DescriptorName::Orb => DescriptorKind::Orb,
+            DescriptorName::Sift => DescriptorKind::Sift,
+        };
+        config
     }
 }

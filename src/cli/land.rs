@@ -1,5 +1,6 @@
 //! `opnav land`: navigate a descent.
 
+use super::arguments::FrontEndArguments;
 use super::landing_options::{LandingOptions, selector_parser};
 use super::progress::Terminal;
 use opnav::pipeline::{FrontEndConfig, LandRequest, LandingConfig, PipelineError, Selector, land};
@@ -27,6 +28,8 @@ pub struct Arguments {
     reselect_after: usize,
     #[command(flatten)]
     filter: LandingOptions,
+    #[command(flatten)]
+    front_end: FrontEndArguments,
     /// Seed of the random selector.
     #[arg(long, default_value = "0")]
     seed: u64,
@@ -46,7 +49,7 @@ pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineErr
         out: arguments.out.clone(),
         map: arguments.map.clone(),
         config,
-        front_end: FrontEndConfig::default(),
+        front_end: arguments.front_end.applied_to(FrontEndConfig::default()),
     };
     let summary = land(&request, terminal)?;
     summary.notes.iter().for_each(|note| terminal.say(note));

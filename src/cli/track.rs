@@ -1,6 +1,6 @@
 //! `opnav track`: any folder of pictures to tracks and relative rotations.
 
-use super::arguments::{CameraArguments, frame_range, positive, positive_number};
+use super::arguments::{CameraArguments, FrontEndArguments, frame_range, positive, positive_number};
 use super::progress::Terminal;
 use opnav::pipeline::{FrameTimes, FrontEndConfig, PipelineError, Progress, TrackRequest, track};
 use std::ops::Range;
@@ -31,6 +31,8 @@ pub struct Arguments {
     /// Grey picture of 8 bits and the camera's size, 0 where not to look (parts of the spacecraft).
     #[arg(long, value_name = "FILE")]
     mask: Option<PathBuf>,
+    #[command(flatten)]
+    front_end: FrontEndArguments,
 }
 
 /// Tracks and prints the counts.
@@ -47,7 +49,7 @@ pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineErr
         every: arguments.every,
         frames: arguments.frames.clone(),
         mask: arguments.mask.clone(),
-        config: FrontEndConfig::default(),
+        config: arguments.front_end.applied_to(FrontEndConfig::default()),
     };
     let summary = track(&request, terminal)?;
     summary.notes.iter().for_each(|note| terminal.note(note));

@@ -1,6 +1,6 @@
 //! `opnav tumble`: the motion of a tumbling body.
 
-use super::arguments::{CameraArguments, frame_range};
+use super::arguments::{CameraArguments, FrontEndArguments, frame_range};
 use super::progress::Terminal;
 use clap::ValueEnum;
 use opnav::pipeline::{Estimator, FrontEndConfig, FrontEndMode, PipelineError, TumbleRequest, TumblingConfig, tumble};
@@ -23,6 +23,8 @@ pub struct Arguments {
     /// The estimator.
     #[arg(long, value_enum, default_value = "shooting")]
     estimator: EstimatorName,
+    #[command(flatten)]
+    front_end: FrontEndArguments,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -53,7 +55,9 @@ pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineErr
         camera: arguments.camera.source(),
         frames: arguments.frames.clone(),
         config: TumblingConfig { estimator: arguments.estimator.into(), ..TumblingConfig::default() },
-        front_end: FrontEndConfig { mode: FrontEndMode::FixedCenter, ..FrontEndConfig::default() },
+        front_end: arguments
+            .front_end
+            .applied_to(FrontEndConfig { mode: FrontEndMode::FixedCenter, ..FrontEndConfig::default() }),
     };
     let summary = tumble(&request, terminal)?;
     summary.notes.iter().for_each(|note| terminal.say(note));

@@ -46,4 +46,4 @@ pub use crate::navigation::landmark::Selector;
 pub use crate::navigation::tumbling::{Estimator, TumblingConfig};
 pub use crate::render::StageTime;
 pub use crate::scene::SurveyLevel;
-pub use crate::vision::{FrontEndConfig, FrontEndMode};
+pub use crate::vision::{DescriptorKind, FrontEndConfig, FrontEndMode};

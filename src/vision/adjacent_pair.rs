@@ -100,7 +100,7 @@ fn solve_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pai
     let mut best: Option<Pair> = None;
     for way in ways.into_iter().filter(|w| predicted.is_some() || *w != Way::Guided) {
         let start = Instant::now();
-        let matches = match_pair((from, to), way, (job.camera(), predicted), job.config);
+        let matches = match_pair((from, to), way, (job.camera(), predicted), job.config)?;
         let match_ms = milliseconds(start) + best.as_ref().map_or(0.0, |b| b.match_ms);
         let start = Instant::now();
         let pixels = PairPixels::new(&from.features, &to.features, matches.iter().map(|m| (m.from, m.to)));

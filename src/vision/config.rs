@@ -1,6 +1,7 @@
 //! Parameters of the front end.
 
-use super::VisionError;
+use super::sift::{PATCH_CURE, PATCH_RANGE_PX};
+use super::{MatcherConfig, VisionError};
 use serde::{Deserialize, Serialize};
 
 /// How the rotation between two pictures is found.
@@ -54,24 +55,6 @@ impl Default for DetectorConfig {
             max_peak_width_px: 2.2,
             max_sigma_px: 0.4,
         }
-    }
-}
-
-/// Matching of binary descriptors.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct MatcherConfig {
-    /// The best distance must be below this fraction of the second best (default 0.85).
-    pub max_ratio: f64,
-    /// Greatest Hamming distance of 256 bits (default 64).
-    pub max_distance_bits: u32,
-    /// Search radius about the predicted pixel when the rotation is predicted, px (default 60).
-    pub guided_radius_px: f64,
-}
-
-impl Default for MatcherConfig {
-    fn default() -> Self {
-        MatcherConfig { max_ratio: 0.85, max_distance_bits: 64, guided_radius_px: 60.0 }
     }
 }
 
@@ -192,7 +175,7 @@ pub struct FrontEndConfig {
     pub mode: FrontEndMode,
     /// Harris detection.
     pub detector: DetectorConfig,
-    /// Matching.
+    /// Description and matching.
     pub matcher: MatcherConfig,
     /// Following of patches.
     pub klt: KltConfig,
@@ -239,6 +222,8 @@ impl FrontEndConfig {
             ("detector.min_distance_px", d.min_distance_px),
             ("detector.max_sigma_px", d.max_sigma_px),
             ("matcher.max_ratio", m.max_ratio),
+            ("matcher.sift.max_ratio", m.sift.max_ratio),
+            ("matcher.sift.max_distance", m.sift.max_distance),
             ("matcher.guided_radius_px", m.guided_radius_px),
             ("klt.max_off_px", k.max_off_px),
             ("klt.max_return_px", k.max_return_px),
@@ -270,12 +255,17 @@ impl FrontEndConfig {
                 return Err(VisionError::OutOfRange { name, value, cure });
             }
         }
+        if !PATCH_RANGE_PX.contains(&m.sift.patch_px) {
+            let value = m.sift.patch_px;
+            return Err(VisionError::OutOfRange { name: "matcher.sift.patch_px", value, cure: PATCH_CURE });
+        }
         if d.block_px.is_multiple_of(2) {
             let value = f64::from(d.block_px);
             return Err(VisionError::OutOfRange { name: "detector.block_px", value, cure: "it must be odd" });
         }
         for (name, value) in [
             ("matcher.max_ratio", m.max_ratio),
+            ("matcher.sift.max_ratio", m.sift.max_ratio),
             ("klt.min_correlation", k.min_correlation),
             ("rotation.min_inlier_ratio", r.min_inlier_ratio),
             ("rotation.smooth_error_share", r.smooth_error_share),

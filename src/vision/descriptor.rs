@@ -1,15 +1,9 @@
-//! ORB descriptors (Rublee et al. 2011) at given corners, on one scale.
+//! What describes a feature's neighbourhood, and how alike two descriptors are.
 
-use super::opencv_bridge::picture_mat;
-use super::{Feature, VisionError};
+use super::{Feature, MatcherConfig};
 use image::GrayImage;
 use nalgebra::Vector2;
-use opencv::core::{KeyPoint, Mat, Point2f, Vector, no_array};
-use opencv::features2d::{ORB, ORB_ScoreType};
-use opencv::prelude::*;
-
-/// 256 bits that describe the neighbourhood of a feature.
-pub type Descriptor = [u64; 4];
+use opencv::core::{KeyPoint, Point2f, Vector};
 
 /// How a descriptor's pattern is turned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,48 +14,49 @@ pub enum Orientation {
     Centroid,
 }
 
-const PATCH_PX: i32 = 31;
-const EDGE_PX: i32 = 8;
+/// Features closer to the picture's edge are not described, px.
+pub(super) const EDGE_PX: i32 = 8;
 
-/// One descriptor a feature, in the same order; features too close to the edge get `None`.
-///
-/// # Errors
-/// OpenCV's refusal.
-pub fn describe(
-    picture: &GrayImage,
-    features: &[Feature],
-    orientation: Orientation,
-) -> Result<Vec<Option<Descriptor>>, VisionError> {
-    if features.is_empty() {
-        return Ok(Vec::new());
-    }
-    describe_with_orb(picture, features, orientation).map_err(VisionError::opencv("describe features"))
+/// What a match must keep to, in the descriptor's own distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MatchLimits {
+    /// The best distance must be below this fraction of the second best.
+    pub max_ratio: f64,
+    /// Greatest distance.
+    pub max_distance: f64,
 }
 
-fn describe_with_orb(
+/// A descriptor of a fixed size that can be compared with others of its kind.
+pub trait Descriptor: Copy + Send + Sync {
+    /// Whether vectors of 256 bits compare two of them faster than whole words do.
+    const WIDE: bool;
+
+    /// A whole number that grows with the distance, quick to find.
+    fn difference(&self, other: &Self) -> u32;
+
+    /// The distance that belongs to a difference.
+    fn distance(difference: u32) -> f64;
+
+    /// The limits that a configuration sets for this kind.
+    fn limits(config: &MatcherConfig) -> MatchLimits;
+}
+
+/// Key points of features for OpenCV, each with the feature's number as its `class_id`.
+pub(super) fn key_points<'a>(
     picture: &GrayImage,
-    features: &[Feature],
-    orientation: Orientation,
-) -> opencv::Result<Vec<Option<Descriptor>>> {
-    let mut key_points: Vector<KeyPoint> = Vector::with_capacity(features.len());
-    for (index, feature) in features.iter().enumerate() {
+    features: impl Iterator<Item = (usize, &'a Feature)>,
+    (orientation, size_px, octave): (Orientation, f64, i32),
+) -> opencv::Result<Vector<KeyPoint>> {
+    let mut key_points: Vector<KeyPoint> = Vector::with_capacity(features.size_hint().0);
+    for (index, feature) in features {
         let angle_deg = match orientation {
             Orientation::Upright => 0.0,
             Orientation::Centroid => centroid_angle_deg(picture, &feature.pixel_px),
         };
         let point = Point2f::new(feature.pixel_px.x as f32, feature.pixel_px.y as f32);
-        key_points.push(KeyPoint::new_point(point, PATCH_PX as f32, angle_deg, 0.0, 0, index as i32)?);
+        key_points.push(KeyPoint::new_point(point, size_px as f32, angle_deg, 0.0, octave, index as i32)?);
     }
-    let mut orb = ORB::create(features.len() as i32, 1.2, 1, EDGE_PX, 0, 2, ORB_ScoreType::HARRIS_SCORE, PATCH_PX, 20)?;
-    let mut bits = Mat::default();
-    orb.detect_and_compute(&picture_mat(picture)?, &no_array(), &mut key_points, &mut bits, true)?;
-    let mut descriptors = vec![None; features.len()];
-    for (row, key_point) in key_points.iter().enumerate() {
-        let bytes = bits.at_row::<u8>(row as i32)?;
-        let word = |i: usize| u64::from_le_bytes(bytes[8 * i..8 * i + 8].try_into().expect("a row holds 32 bytes"));
-        descriptors[key_point.class_id() as usize] = Some([word(0), word(1), word(2), word(3)]);
-    }
-    Ok(descriptors)
+    Ok(key_points)
 }
 
 /// Direction of the centroid of the grey levels in a disc of 15 px, degrees from +u towards +v.

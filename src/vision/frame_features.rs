@@ -1,20 +1,22 @@
 //! Features of one picture, and their matches with the next.
 
-use super::descriptor::{Descriptor, Orientation, describe};
+use super::descriptions::{Descriptions, match_described};
 use super::front_end::FrameReport;
-use super::matching::{Described, IndexMatch, match_features, match_features_guided};
+use super::matching::IndexMatch;
 use super::sequence::Job;
 use super::sharpen::Link;
 use super::silhouette::{bright_centroid_px, inside_silhouette};
 use super::tracks::SharedPoint;
 use super::{
-    Feature, FrameStatus, FrontEndConfig, FrontEndMode, MatchedPair, PixelMatches, VisionError, detect_harris,
+    Feature, FrameStatus, FrontEndConfig, FrontEndMode, MatchedPair, MatcherConfig, Orientation, PixelMatches,
+    VisionError, detect_harris,
 };
 use crate::dataset::Frame;
 use crate::geometry::Camera;
 use image::GrayImage;
 use nalgebra::{UnitQuaternion, Vector2};
 use std::borrow::Cow;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 /// A picture's features and descriptors; the picture itself until its pairs are solved.
@@ -23,8 +25,8 @@ pub(super) struct FrameFeatures {
     pub(super) centroid_px: Option<Vector2<f64>>,
     pub(super) report: FrameReport,
     pub(super) picture: GrayImage,
-    upright: Vec<Option<Descriptor>>,
-    turned: Vec<Option<Descriptor>>,
+    upright: OnceLock<Descriptions>,
+    turned: OnceLock<Descriptions>,
 }
 
 pub(super) fn milliseconds(start: Instant) -> f64 {
@@ -46,8 +48,7 @@ impl FrameFeatures {
         let features = detect_harris(&picture, mask.as_deref(), &config.detector)?;
         let detect_ms = milliseconds(start);
         let start = Instant::now();
-        let upright = describe(&picture, &features, Orientation::Upright)?;
-        let turned = describe(&picture, &features, Orientation::Centroid)?;
+        let upright = Descriptions::find(&picture, &features, Orientation::Upright, &config.matcher)?.into();
         let describe_ms = milliseconds(start);
         let (index, t_ns) = (frame.index, frame.t_ns);
         let enough = features.len() >= config.rotation.min_matches;
@@ -61,27 +62,36 @@ impl FrameFeatures {
             describe_ms,
             ..FrameReport::default()
         };
-        Ok(FrameFeatures { features, centroid_px, report, picture, upright, turned })
+        Ok(FrameFeatures { features, centroid_px, report, picture, upright, turned: OnceLock::new() })
     }
 
     fn none(report: FrameReport) -> Self {
-        let (upright, turned) = (Vec::new(), Vec::new());
+        let (upright, turned) = (OnceLock::new(), OnceLock::new());
         FrameFeatures { features: vec![], centroid_px: None, report, picture: GrayImage::default(), upright, turned }
     }
 
-    fn described(&self, orientation: Orientation) -> Described<'_> {
-        let descriptors = match orientation {
+    /// Features with their descriptors, which are made when they are first asked for: most pairs need none turned.
+    fn described(
+        &self,
+        orientation: Orientation,
+        config: &MatcherConfig,
+    ) -> Result<(&[Feature], &Descriptions), VisionError> {
+        let kept = match orientation {
             Orientation::Upright => &self.upright,
             Orientation::Centroid => &self.turned,
         };
-        Described { features: &self.features, descriptors }
+        if kept.get().is_none() {
+            // Two pairs may come here at once: both make the same.
+            let _ = kept.set(Descriptions::find(&self.picture, &self.features, orientation, config)?);
+        }
+        Ok((&self.features, kept.get().expect("it is set just above")))
     }
 
     /// Drops what only the pairs need.
     pub(super) fn forget_picture(&mut self) {
         self.picture = GrayImage::default();
-        self.upright = Vec::new();
-        self.turned = Vec::new();
+        self.upright = OnceLock::new();
+        self.turned = OnceLock::new();
     }
 }
 
@@ -116,20 +126,21 @@ pub(super) fn match_pair(
     way: Way,
     (camera, predicted): (&Camera, Option<UnitQuaternion<f64>>),
     config: &FrontEndConfig,
-) -> Vec<IndexMatch> {
+) -> Result<Vec<IndexMatch>, VisionError> {
     let orientation = match way {
         Way::Guided if predicted.is_some_and(|q| roll_rad(&q).abs() < 0.2) => Orientation::Upright,
         Way::Upright => Orientation::Upright,
         _ => Orientation::Centroid,
     };
-    let (a, b) = (from.described(orientation), to.described(orientation));
+    let matcher = &config.matcher;
+    let (from, to) = (from.described(orientation, matcher)?, to.described(orientation, matcher)?);
     if way != Way::Guided {
-        return match_features(a, b, &config.matcher);
+        return Ok(match_described(from, to, None, matcher));
     }
-    let Some(rotation) = predicted else { return Vec::new() };
+    let Some(rotation) = predicted else { return Ok(Vec::new()) };
     let predict =
         |pixel: &Vector2<f64>| camera.unproject(pixel).and_then(|ray| camera.project(&(rotation * ray.into_inner())));
-    match_features_guided(a, b, &predict, &config.matcher)
+    Ok(match_described(from, to, Some(&predict), matcher))
 }
 
 /// Turn of the picture about its axis.

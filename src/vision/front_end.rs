@@ -52,7 +52,7 @@ pub struct FrameReport {
     pub detect_ms: f64,
     /// Description, ms.
     pub describe_ms: f64,
-    /// Matching with the picture before, ms.
+    /// Matching with the picture before, and descriptors that only this needed, ms.
     pub match_ms: f64,
     /// Solving the rotation from the picture before, ms.
     pub rotation_ms: f64,

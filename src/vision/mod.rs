@@ -1,7 +1,7 @@
 //! The image front end: the only room that names OpenCV.
 //!
-//! Harris corners are found in every picture, located to a fraction of a pixel, described by ORB and matched from picture
-//! to picture. Each pair's matches are explained by the model that fits the scene, which gives the rotation between the
+//! Harris corners are found in every picture, located to a fraction of a pixel, described by ORB (or SIFT) and matched
+//! from picture to picture. Each pair's matches are explained by the model that fits the scene, which gives the rotation between the
 //! pictures with its covariance, and verified matches chain into tracks. Plain results ([`TrackObservation`],
 //! [`RelativeRotation`]) and their files are free of OpenCV and are compiled without the `vision` feature too.
 //!
@@ -67,6 +67,8 @@ mod config;
 #[cfg(feature = "vision")]
 mod corner_peak;
 #[cfg(feature = "vision")]
+mod descriptions;
+#[cfg(feature = "vision")]
 mod descriptor;
 #[cfg(feature = "vision")]
 mod designated;
@@ -109,11 +111,15 @@ mod lost_tracks;
 #[cfg(feature = "vision")]
 mod map;
 #[cfg(feature = "vision")]
+mod matcher_config;
+#[cfg(feature = "vision")]
 mod matching;
 #[cfg(feature = "vision")]
 mod motion;
 #[cfg(feature = "vision")]
 mod opencv_bridge;
+#[cfg(feature = "vision")]
+mod orb;
 mod overlay;
 #[cfg(feature = "vision")]
 mod pair_fit;
@@ -142,6 +148,8 @@ mod sequence;
 #[cfg(feature = "vision")]
 mod sharpen;
 #[cfg(feature = "vision")]
+mod sift;
+#[cfg(feature = "vision")]
 mod sight;
 #[cfg(feature = "vision")]
 mod silhouette;
@@ -164,19 +172,20 @@ pub use tracks_file::{read_tracks, write_tracks};
 
 #[cfg(feature = "vision")]
 pub use {
-    config::{
-        DetectorConfig, FixedCenterConfig, FrontEndConfig, FrontEndMode, KltConfig, MatcherConfig, RotationConfig,
-    },
-    descriptor::{Descriptor, Orientation, describe},
+    config::{DetectorConfig, FixedCenterConfig, FrontEndConfig, FrontEndMode, KltConfig, RotationConfig},
+    descriptor::{Descriptor, MatchLimits, Orientation},
     error::VisionError,
     fixed_center::{CenterProblem, CenterSolution, CenteredPair, rotations_about_center},
     front_end::{DesignatedStep, FrameReport, FrontEnd, RotationPrediction, TrackInputs},
     harris::{Feature, detect_harris},
     klt::{KltPoint, track_patches},
     map::{MapFix, MapMatchConfig, MapMatcher, MapSighting, MapStatus, PredictedCamera},
+    matcher_config::{DescriptorKind, MatcherConfig, SiftConfig},
     matching::{Described, IndexMatch, match_features, match_features_guided},
+    orb::{OrbDescriptor, describe_orb},
     picture_noise::noise_sigma_dn,
     relative_rotation::{PairHints, PairSolution, PixelMatches, relative_rotation},
     sequence::track_sequence,
+    sift::{SiftDescriptor, describe_sift},
     silhouette::{bright_centroid_px, inside_silhouette},
 };

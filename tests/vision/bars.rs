@@ -1,5 +1,6 @@
 //! What the front end promises, measured on rendered pictures against their truth.
 
+mod descriptors;
 mod levels;
 mod localisation;
 
@@ -9,6 +10,6 @@ use crate::bar::{Extent, check_table};
 #[test]
 #[ignore = "minutes long: run by `make accuracy`"]
 fn accuracy_of_the_front_end() {
-    let parts = [levels::bars, localisation::bars];
+    let parts = [levels::bars, localisation::bars, descriptors::bars];
     check_table("front end on rendered pictures", parts.into_iter().map(|part| part(Extent::Full)));
 }

@@ -19,7 +19,7 @@ fn features(picture: &GrayImage) -> Vec<Feature> {
 
 fn matched(a: &GrayImage, b: &GrayImage, orientation: Orientation) -> (Vec<Feature>, Vec<Feature>, Vec<IndexMatch>) {
     let (fa, fb) = (features(a), features(b));
-    let (da, db) = (describe(a, &fa, orientation).unwrap(), describe(b, &fb, orientation).unwrap());
+    let (da, db) = (describe_orb(a, &fa, orientation).unwrap(), describe_orb(b, &fb, orientation).unwrap());
     let from = Described { features: &fa, descriptors: &da };
     let to = Described { features: &fb, descriptors: &db };
     let found = match_features(from, to, &MatcherConfig::default());
@@ -126,7 +126,8 @@ fn a_prediction_finds_more_matches_and_no_worse_ones() {
     let h = similarity(1.05, 5.0, Vector2::new(190.0, 190.0));
     let (a, b) = pair(&h, 4.0);
     let (fa, fb, free) = matched(&a, &b, Orientation::Upright);
-    let (da, db) = (describe(&a, &fa, Orientation::Upright).unwrap(), describe(&b, &fb, Orientation::Upright).unwrap());
+    let (da, db) =
+        (describe_orb(&a, &fa, Orientation::Upright).unwrap(), describe_orb(&b, &fb, Orientation::Upright).unwrap());
     let config = MatcherConfig { guided_radius_px: 8.0, ..MatcherConfig::default() };
     let (from, to) = (Described { features: &fa, descriptors: &da }, Described { features: &fb, descriptors: &db });
     let guided = match_features_guided(from, to, &|p| Some(apply(&h, *p)), &config);

@@ -8,8 +8,8 @@ use super::view::MapView;
 use crate::geometry::Camera;
 use crate::vision::opencv_bridge::{mat_from, points};
 use crate::vision::{
-    Described, DetectorConfig, Feature, MatcherConfig, Orientation, VisionError, describe, detect_harris,
-    match_features,
+    Described, DetectorConfig, Feature, MatcherConfig, OrbDescriptor, Orientation, VisionError, describe_orb,
+    detect_harris, match_features,
 };
 use image::GrayImage;
 use nalgebra::{Isometry3, Matrix3, Translation3, Vector2, Vector3};
@@ -64,13 +64,13 @@ fn raised(camera_from_site: &Isometry3<f64>, by_m: f64) -> Isometry3<f64> {
     camera_from_site * Translation3::new(0.0, 0.0, -by_m)
 }
 
-type DescribedFeatures = (Vec<Feature>, Vec<Option<crate::vision::Descriptor>>);
+type DescribedFeatures = (Vec<Feature>, Vec<Option<OrbDescriptor>>);
 
 fn described(picture: &GrayImage, known: Option<&GrayImage>) -> Result<DescribedFeatures, VisionError> {
     let border_px = 2 * half_px(picture);
     let config = DetectorConfig { max_features: CORNERS, border_px, ..DetectorConfig::default() };
     let features = detect_harris(picture, known, &config)?;
-    let descriptors = describe(picture, &features, Orientation::Upright)?;
+    let descriptors = describe_orb(picture, &features, Orientation::Upright)?;
     Ok((features, descriptors))
 }
 

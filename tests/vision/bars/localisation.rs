@@ -26,19 +26,19 @@ const STEPS: [Step; 2] = [
 const NOISE_DN: [f64; 3] = [0.0, 2.0, 5.0];
 const HEIGHTS_M: [f64; 5] = [5000.0, 1500.0, 400.0, 100.0, 30.0];
 /// A match further off than this is a wrong match, px.
-const WRONG_PX: f64 = 3.0;
+pub const WRONG_PX: f64 = 3.0;
 
 /// An error in px, and the covariance that was predicted for it in px².
 type Error = (Vector2<f64>, Matrix2<f64>);
 
-fn features(picture: &GrayImage) -> Vec<Feature> {
+pub fn features(picture: &GrayImage) -> Vec<Feature> {
     detect_harris(picture, None, &DetectorConfig::default()).expect("features")
 }
 
 /// Matched corners against the truth.
 fn corner_errors(pair: &RenderedPair, pictures: &[GrayImage; 2]) -> Vec<Error> {
     let found = pictures.each_ref().map(features);
-    let bits = [0, 1].map(|i| describe(&pictures[i], &found[i], Orientation::Upright).expect("descriptors"));
+    let bits = [0, 1].map(|i| describe_orb(&pictures[i], &found[i], Orientation::Upright).expect("descriptors"));
     let described = [0, 1].map(|i| Described { features: &found[i], descriptors: &bits[i] });
     let error = |m: &IndexMatch| {
         let (from, to) = (&found[0][m.from], &found[1][m.to]);

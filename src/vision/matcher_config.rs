@@ -1,0 +1,60 @@
+//! Parameters of description and matching.
+
+use serde::{Deserialize, Serialize};
+
+/// What describes the neighbourhood of a feature.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DescriptorKind {
+    /// 256 comparisons of grey levels (Rublee et al. 2011): quick.
+    #[default]
+    Orb,
+    /// 128 sums of gradients (Lowe 2004): finds more where light, scale or view change, and takes several times as long.
+    Sift,
+}
+
+/// Description by SIFT and matching of such descriptors.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SiftConfig {
+    /// Side of the square patch that is described, px (default 21).
+    pub patch_px: f64,
+    /// The best distance must be below this fraction of the second best (default 0.84).
+    pub max_ratio: f64,
+    /// Greatest distance of two descriptors, whose length is about 512 (default 280).
+    pub max_distance: f64,
+}
+
+impl Default for SiftConfig {
+    fn default() -> Self {
+        SiftConfig { patch_px: 21.0, max_ratio: 0.84, max_distance: 280.0 }
+    }
+}
+
+/// Description and matching.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct MatcherConfig {
+    /// What describes a feature (default orb).
+    pub descriptor: DescriptorKind,
+    /// ORB: the best distance must be below this fraction of the second best (default 0.85).
+    pub max_ratio: f64,
+    /// ORB: greatest Hamming distance of 256 bits (default 64).
+    pub max_distance_bits: u32,
+    /// SIFT, used with that descriptor only.
+    pub sift: SiftConfig,
+    /// Search radius about the predicted pixel when the rotation is predicted, px (default 60).
+    pub guided_radius_px: f64,
+}
+
+impl Default for MatcherConfig {
+    fn default() -> Self {
+        MatcherConfig {
+            descriptor: DescriptorKind::default(),
+            max_ratio: 0.85,
+            max_distance_bits: 64,
+            sift: SiftConfig::default(),
+            guided_radius_px: 60.0,
+        }
+    }
+}
