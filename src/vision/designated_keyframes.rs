@@ -19,7 +19,7 @@ const SCALE_SIGMA_PX: f64 = 0.3;
 const COMMON: f64 = 0.3;
 /// 1σ in px by which the looks of the ground move over the ground as scale grows e-fold, in each coordinate: finer details
 /// appear, and all past pictures are wrong alike about where the point is among them (fitted to rendered ground).
-const LOOKS_SIGMA_PX: f64 = 0.2;
+const LOOKS_SIGMA_PX: f64 = 0.1;
 
 /// A past picture with its place of the point.
 pub(super) struct Keyframe {

@@ -7,13 +7,17 @@
 use super::center_start::{CenterView, best_start, is_near_side};
 use super::pair_fit::{Loss, cost, fit, observed_information};
 use super::pair_models::{AboutCenter, WithCenter};
-use super::smooth_error::{COEFFICIENTS, White, refine, spread};
+use super::smooth_error::{Size, White, refine, spread};
+use super::smooth_modes::COEFFICIENTS;
 use super::{FixedCenterConfig, PairSolution, PairStatus, PixelMatches, RotationConfig, RotationModel};
 use crate::geometry::{Camera, so3};
 use nalgebra::{
     Matrix2, Matrix2x3, Matrix2x5, Matrix3, Matrix3x2, Matrix5, SMatrix, Unit, UnitQuaternion, Vector2, Vector3,
 };
 use rayon::prelude::*;
+
+/// Variance of smooth errors over what residuals show (fitted to bodies rendered with known motion).
+const OVER_LIKELIEST: f64 = 2.0;
 
 /// A pair of pictures of the body.
 #[derive(Debug, Clone, Copy)]
@@ -256,8 +260,8 @@ fn finish(
     if (fitted.inlier_count() as f64) < enough || !is_near_side(&fitted.model, &view.sights) {
         return refused(PairStatus::Rejected);
     }
-    let share = problem.config.smooth_error_share;
-    let Some(refined) = refine(&fitted, &view.sights, share) else { return refused(PairStatus::Degenerate) };
+    let size = Size { share: problem.config.smooth_error_share, over_likeliest: OVER_LIKELIEST };
+    let Some(refined) = refine(&fitted, &view.sights, size) else { return refused(PairStatus::Degenerate) };
     let full = observed_information(
         &WithCenter(refined.model),
         &fitted.agreeing(&view.sights),

@@ -155,6 +155,8 @@ mod sight;
 mod silhouette;
 #[cfg(feature = "vision")]
 mod smooth_error;
+#[cfg(feature = "vision")]
+mod smooth_modes;
 mod text_table;
 #[cfg(feature = "vision")]
 mod tracks;

@@ -5,13 +5,15 @@ use super::ground_fit::GroundFit;
 use super::pair_fit::fit;
 use super::pair_models::General;
 use super::sight::Sight;
-use super::smooth_error::refine;
+use super::smooth_error::{Size, refine};
 use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
 
 /// Relief shows where the ratio of the variances of its parallax and of the noise, added up over the matches, exceeds this.
 const SHOWING: f64 = 500.0;
 /// By how much the share of smooth errors grows with the square of the translation over the distance.
 const SHARE_BY_VIEW: f64 = 0.25;
+/// Variance of smooth errors over what residuals show (fitted to rendered descents over other terrains than the judged).
+const OVER_LIKELIEST: f64 = 3.0;
 
 /// A motion with its covariance.
 pub(super) struct Motion {
@@ -75,7 +77,7 @@ fn with_free_relief(
     let mut flags = refined.inliers.iter();
     let inliers = fit.inliers.iter().map(|i| *i && *flags.next().unwrap_or(&false)).collect();
     let share = smooth_error_share + SHARE_BY_VIEW * fit.ground.translation.norm_squared();
-    let smoothed = refine(&refined, &inside, share)?;
+    let smoothed = refine(&refined, &inside, Size { share, over_likeliest: OVER_LIKELIEST })?;
     Some(Motion {
         rotation: smoothed.model.rotation,
         covariance_rad2: smoothed.rotation_covariance_rad2,

@@ -60,13 +60,20 @@ impl CameraMount {
     pub fn bearing(&self, observation: &TrackObservation, sigma_floor_px: f64) -> Option<BearingObservation> {
         let in_camera = self.camera.unproject(&observation.pixel_px)?;
         let direction_in_lander = Unit::new_normalize(self.lander_from_camera.rotation * in_camera.into_inner());
-        let camera_from_lander = self.lander_from_camera.rotation.inverse().to_rotation_matrix().into_inner();
-        let across_in_camera = camera_from_lander * so3::tangent_basis(&direction_in_lander);
-        let (_, pixel_by_point) = self.camera.project_with_jacobian(&in_camera)?;
-        let angle_by_pixel = (pixel_by_point * across_in_camera).try_inverse()?;
+        let angle_by_pixel = self.angle_by_pixel(&direction_in_lander)?;
         let sigma_px = observation.sigma_px.max(sigma_floor_px);
         let covariance_rad2 = angle_by_pixel * angle_by_pixel.transpose() * sigma_px.powi(2);
         Some(BearingObservation { track_id: observation.track_id, direction_in_lander, covariance_rad2, known: None })
+    }
+
+    /// Derivative (rad/px) of a direction, in the basis [`so3::tangent_basis`] of it, by its pixel: the further off the
+    /// axis, the smaller. `None` where the camera does not see it.
+    pub fn angle_by_pixel(&self, direction_in_lander: &Unit<Vector3<f64>>) -> Option<Matrix2<f64>> {
+        let camera_from_lander = self.lander_from_camera.rotation.inverse().to_rotation_matrix().into_inner();
+        let across_in_camera = camera_from_lander * so3::tangent_basis(direction_in_lander);
+        let (_, pixel_by_point) =
+            self.camera.project_with_jacobian(&(camera_from_lander * direction_in_lander.into_inner()))?;
+        (pixel_by_point * across_in_camera).try_inverse()
     }
 }
 
