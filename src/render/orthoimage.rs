@@ -10,6 +10,9 @@ use rayon::prelude::*;
 
 /// Edge of the shadow map in texels: about as many as the picture has samples.
 const SHADOW_MAP_PX: u32 = 4096;
+/// Least distance between the ground's vertices, px: a map's squares are wider than pictures, and their ground has to fit
+/// into the adapter's buffers.
+const VERTEX_SPACING_PX: f64 = 1.1;
 /// 1σ of the place of what an orthoimage shows, px: what resampling and details that one level of the ground shows and
 /// another one does not leave open.
 const SIGMA_PX: f64 = 0.05;
@@ -35,7 +38,8 @@ pub fn map_level(
         sun_in_reference: sun_in_site,
         sun_angular_radius_rad,
     };
-    let config = RenderConfig { shadow_map_px: SHADOW_MAP_PX, surface_truth: false, ..*config };
+    let vertex_spacing_px = config.vertex_spacing_px.max(VERTEX_SPACING_PX);
+    let config = RenderConfig { shadow_map_px: SHADOW_MAP_PX, surface_truth: false, vertex_spacing_px, ..*config };
     let frame = Renderer::new(gpu, World::Terrain(terrain), &camera, &config)?.render(&view)?;
     let numbers = orthorectified((&frame, &camera, &view), level, &heights_m);
     let posts = level.posts() as u32;

@@ -73,14 +73,13 @@ impl TilePool {
     /// not fit.
     pub(super) fn place(&mut self, gpu: &Gpu, terrain: &Terrain, keys: &[TileKey]) -> Result<Vec<u32>, RenderError> {
         if keys.len() > self.capacity {
-            let capacity = keys.len().next_power_of_two();
             let limit = gpu.device.limits().max_storage_buffer_binding_size;
-            if TILE_BYTES * capacity as u64 > limit {
-                return Err(gpu.error(
+            let capacity = capacity(keys.len(), limit).ok_or_else(|| {
+                gpu.error(
                     "hold the terrain of this view",
-                    format!("{} tiles are too many: raise render.vertex-spacing-px", keys.len()),
-                ));
-            }
+                    format!("{} tiles are too many: raise render.vertex_spacing_px", keys.len()),
+                )
+            })?;
             *self = TilePool::with_capacity(gpu, capacity);
         }
         self.frame += 1;
@@ -141,7 +140,29 @@ impl TilePool {
 }
 
 /// The range that holds all ranges; from ∞ to -∞ without any.
+/// Tiles to make room for where `tiles` have to fit into `limit` bytes: more than these, so that room is seldom made anew.
+/// `None` if they do not fit.
+fn capacity(tiles: usize, limit: u64) -> Option<usize> {
+    let most = (limit / TILE_BYTES) as usize;
+    (tiles <= most).then(|| tiles.next_power_of_two().min(most))
+}
+
 fn range(ranges: impl Iterator<Item = [f32; 2]>) -> [f32; 2] {
     let wider = |[low, high]: [f32; 2], other: [f32; 2]| [low.min(other[0]), high.max(other[1])];
     ranges.fold([f32::INFINITY, f32::NEG_INFINITY], wider)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_buffer_is_used_up_to_its_last_tile() {
+        let limit = 1000 * TILE_BYTES + 1;
+        assert_eq!(capacity(300, limit), Some(512));
+        assert_eq!(capacity(512, limit), Some(512));
+        assert_eq!(capacity(513, limit), Some(1000));
+        assert_eq!(capacity(1000, limit), Some(1000));
+        assert_eq!(capacity(1001, limit), None);
+    }
 }
