@@ -10,10 +10,13 @@ use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
 
 /// Relief shows where the ratio of the variances of its parallax and of the noise, added up over the matches, exceeds this.
 const SHOWING: f64 = 500.0;
-/// By how much the share of smooth errors grows with the square of the translation over the distance.
+/// By how much the share of smooth errors grows with the square of the translation over the distance, as long as that is
+/// small…
 const SHARE_BY_VIEW: f64 = 0.25;
-/// Variance of smooth errors over what residuals show (fitted to rendered descents over other terrains than the judged).
-const OVER_LIKELIEST: f64 = 3.0;
+/// …and the square at which it has grown by half of what it can.
+const FAR_VIEW: f64 = 0.03;
+/// Variance of smooth errors over what residuals show (fitted to rendered descents over seven terrains).
+const OVER_LIKELIEST: f64 = 3.3;
 
 /// A motion with its covariance.
 pub(super) struct Motion {
@@ -76,7 +79,8 @@ fn with_free_relief(
     let refined = self::fit(start, &inside, WIDEST_SIGMA * fit.scale());
     let mut flags = refined.inliers.iter();
     let inliers = fit.inliers.iter().map(|i| *i && *flags.next().unwrap_or(&false)).collect();
-    let share = smooth_error_share + SHARE_BY_VIEW * fit.ground.translation.norm_squared();
+    let view = fit.ground.translation.norm_squared();
+    let share = smooth_error_share + SHARE_BY_VIEW * view / (1.0 + view / FAR_VIEW);
     let smoothed = refine(&refined, &inside, Size { share, over_likeliest: OVER_LIKELIEST })?;
     Some(Motion {
         rotation: smoothed.model.rotation,
