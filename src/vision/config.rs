@@ -112,7 +112,8 @@ pub struct RotationConfig {
     /// 1σ of a predicted rotation, rad (default 0.005).
     pub prior_sigma_rad: f64,
     /// Variance of errors that vary smoothly over the picture, as a share of the noise's (default 0.0007). It grows with
-    /// the square of the translation over the distance: the looks of ground change with the view.
+    /// the square of the translation over the distance: the looks of ground change with the view. 0 where pixels err by
+    /// white noise alone, as simulated ones do.
     pub smooth_error_share: f64,
     /// Seed of the random samples (default 1).
     pub seed: u64,

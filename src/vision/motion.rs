@@ -10,9 +10,9 @@ use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
 
 /// Relief shows where the ratio of the variances of its parallax and of the noise, added up over the matches, exceeds this.
 const SHOWING: f64 = 500.0;
-/// By how much the share of smooth errors grows with the square of the translation over the distance, as long as that is
-/// small…
-const SHARE_BY_VIEW: f64 = 0.25;
+/// By how many times itself the share of smooth errors grows with the square of the translation over the distance, as long
+/// as that is small…
+const GROWTH_BY_VIEW: f64 = 360.0;
 /// …and the square at which it has grown by half of what it can.
 const FAR_VIEW: f64 = 0.03;
 /// Variance of smooth errors over what residuals show (fitted to rendered descents over seven terrains).
@@ -80,7 +80,7 @@ fn with_free_relief(
     let mut flags = refined.inliers.iter();
     let inliers = fit.inliers.iter().map(|i| *i && *flags.next().unwrap_or(&false)).collect();
     let view = fit.ground.translation.norm_squared();
-    let share = smooth_error_share + SHARE_BY_VIEW * view / (1.0 + view / FAR_VIEW);
+    let share = smooth_error_share * (1.0 + GROWTH_BY_VIEW * view / (1.0 + view / FAR_VIEW));
     let smoothed = refine(&refined, &inside, Size { share, over_likeliest: OVER_LIKELIEST })?;
     Some(Motion {
         rotation: smoothed.model.rotation,

@@ -171,7 +171,7 @@ fn too_few_matches_are_too_few() {
 
 /// Mean normalised error squared over three where the matches' errors vary smoothly over the picture besides their noise,
 /// with coefficients of `share` of the noise's variance.
-fn nees_with_smooth_errors(share: f64) -> f64 {
+fn nees_with_smooth_errors(share: f64, config: &RotationConfig) -> f64 {
     const TRIALS: u64 = 40;
     const NOISE_PX: f64 = 0.1;
     let mut sum = 0.0;
@@ -187,7 +187,9 @@ fn nees_with_smooth_errors(share: f64) -> f64 {
             let modes = [1.0, p.x, p.y, p.x * p.y, 0.7 * (p.x * p.x - 1.0), 0.7 * (p.y * p.y - 1.0)];
             *to += field.iter().zip(modes).map(|(f, m)| f * m).sum::<Vector2<f64>>();
         }
-        let solution = solve(&scene, &pair, &PairHints::default());
+        let sigma_px = vec![0.3; pair.from_px.len()];
+        let matches = PixelMatches { pair: &pair, sigma_px: &sigma_px };
+        let solution = relative_rotation(matches, &scene.camera, &PairHints::default(), config).expect("OpenCV");
         let d = so3::log(&(scene.rotation * solution.camera_to_from_camera_from.inverse()));
         sum += d.dot(&(solution.covariance_rad2.try_inverse().unwrap() * d)) / 3.0;
     }
@@ -196,8 +198,12 @@ fn nees_with_smooth_errors(share: f64) -> f64 {
 
 #[test]
 fn errors_that_vary_smoothly_are_in_the_covariance_up_to_what_pictures_show() {
-    let (none, usual, absurd) =
-        (nees_with_smooth_errors(0.0), nees_with_smooth_errors(0.003), nees_with_smooth_errors(0.3));
-    assert!((0.5..1.4).contains(&none) && (0.6..1.6).contains(&usual), "{none}, {usual}");
+    let default = RotationConfig::default();
+    let white = RotationConfig { smooth_error_share: 0.0, ..default.clone() };
+    let none = nees_with_smooth_errors(0.0, &white);
+    let (usual, absurd) = (nees_with_smooth_errors(0.007, &default), nees_with_smooth_errors(0.3, &default));
+    assert!((0.7..1.4).contains(&none) && (0.6..1.6).contains(&usual), "{none}, {usual}");
+    let unexpected = nees_with_smooth_errors(0.007, &white);
+    assert!(unexpected > 1.6, "taken for white noise, they are too large: {unexpected}");
     assert!(absurd > 3.0, "{absurd}");
 }
