@@ -7,6 +7,8 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use std::path::Path;
 
 const HEADER: &str = "t_ns_from,t_ns_to,qw,qx,qy,qz,sigma_x_rad,sigma_y_rad,sigma_z_rad,matches,inliers,model,status";
+/// Greatest 1σ of a rotation that is read, rad: beyond a turn it says nothing, and its square must be a number.
+const GREATEST_SIGMA_RAD: f64 = 1e6;
 
 impl RotationModel {
     /// The model's word in files.
@@ -62,7 +64,7 @@ pub fn write_relative_rotations(path: &Path, rotations: &[RelativeRotation]) -> 
 ///
 /// # Errors
 /// Names the file and line of a wrong header, a wrong column count, a value that is not a number, a quaternion off unit
-/// length by more than 1e-6, a negative σ, or a model or status that is not in the contract.
+/// length by more than 1e-6, a negative or absurd σ, or a model or status that is not in the contract.
 pub fn read_relative_rotations(path: &Path) -> Result<Vec<RelativeRotation>, DatasetError> {
     read_rows(path, HEADER, parse)
 }
@@ -75,6 +77,9 @@ fn parse(row: &Row) -> Result<RelativeRotation, String> {
     let sigma = Vector3::new(row.number(6)?, row.number(7)?, row.number(8)?);
     if sigma.min() < 0.0 {
         return Err("a standard deviation is negative".into());
+    }
+    if sigma.max() > GREATEST_SIGMA_RAD {
+        return Err(format!("a standard deviation is {} rad: {GREATEST_SIGMA_RAD} is the most", sigma.max()));
     }
     Ok(RelativeRotation {
         t_ns_from: row.whole(0)?,

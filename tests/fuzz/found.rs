@@ -3,6 +3,7 @@
 use opnav::dataset::truth::read_flow;
 use opnav::dataset::{CameraSource, ImageSequence, read_camera_sensor, read_tum};
 use opnav::scene::{Mesh, Raster, RasterFile};
+use opnav::vision::read_relative_rotations;
 
 fn folder() -> tempfile::TempDir {
     tempfile::tempdir().expect("a temporary folder")
@@ -112,4 +113,19 @@ fn a_list_without_pictures() {
         error.contains("data.csv: it lists no pictures: write a line 'timestamp [ns],filename' for each"),
         "{error}"
     );
+}
+
+/// The covariance overflowed, and what was written could not be read again.
+#[test]
+fn a_standard_deviation_whose_square_is_no_number() {
+    let dir = folder();
+    let path = dir.path().join("relative_rotations.csv");
+    let header = "t_ns_from,t_ns_to,qw,qx,qy,qz,sigma_x_rad,sigma_y_rad,sigma_z_rad,matches,inliers,model,status";
+    let with = |sigma: &str| {
+        std::fs::write(&path, format!("{header}\n9,12,1,0,0,0,0,0,{sigma},12,0,none,few-matches\n")).expect("a file");
+        read_relative_rotations(&path)
+    };
+    let error = with("1e308").expect_err("refused").to_string();
+    assert!(error.contains("relative_rotations.csv, line 2: a standard deviation is 1"), "{error}");
+    assert_eq!(with("3.2").expect("read").len(), 1);
 }
