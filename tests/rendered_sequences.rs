@@ -88,7 +88,7 @@ fn descent() -> Vec<Bar> {
         let (metrics, _) = tracked(&images, Some(first..first + FRAMES_A_PART), FrontEndMode::Auto);
         bars.extend(error_bars(&what, &metrics));
         let nees = figure(&metrics, "pair_nees_per_dof");
-        bars.push(Bar::stated(format!("{what}: NEES per degree of freedom, terrain 1 alone"), nees, ""));
+        bars.extend(consistency_bars(&format!("{what}, terrain 1 alone"), nees));
         bars.extend(consistency_bars(&format!("{what}, five terrains"), mean_nees(first, nees)));
     }
     let request = LandRequest {
