@@ -2,8 +2,8 @@
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use nalgebra::{Isometry3, SMatrix, UnitQuaternion, Vector3};
+use opnav::campaign::{CampaignOptions, run_campaign};
 use opnav::dataset::InitialState;
-use opnav::evaluation::{CampaignOptions, run_campaign};
 use opnav::geometry::so3::exp;
 use opnav::navigation::filter::Gate;
 use opnav::navigation::landing::{

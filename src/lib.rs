@@ -34,15 +34,19 @@
 //! `render` (wgpu) and `vision` (OpenCV) are on by default and only leave rooms out; the filters build with neither.
 #![warn(missing_docs)]
 
+pub mod campaign;
 pub mod dataset;
 pub mod evaluation;
 pub mod geometry;
 pub mod navigation;
+pub mod observations;
 #[cfg(all(feature = "render", feature = "vision"))]
 pub mod pipeline;
 #[cfg(feature = "render")]
 pub mod render;
 pub mod report;
 pub mod scene;
+pub mod settings;
 pub mod stats;
+#[cfg(feature = "vision")]
 pub mod vision;

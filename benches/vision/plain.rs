@@ -9,6 +9,7 @@ use opencv::features2d::{BFMatcher, ORB};
 use opencv::imgproc::good_features_to_track;
 use opencv::prelude::*;
 use opnav::geometry::{Camera, so3};
+use opnav::observations::*;
 use opnav::vision::*;
 use std::hint::black_box;
 

@@ -3,7 +3,8 @@
 use super::landing_options::{LandingOptions, selector_parser};
 use super::progress::Terminal;
 use clap::{Subcommand, ValueEnum};
-use opnav::pipeline::{CampaignOptions, FieldOfView, MonteCarloRequest, PipelineError, Selector, montecarlo_landing};
+use opnav::campaign::{CampaignOptions, FieldOfView};
+use opnav::pipeline::{MonteCarloRequest, PipelineError, Selector, montecarlo_landing};
 use std::path::PathBuf;
 
 /// Fly a mission many times with simulated measurements, and compare errors, envelopes and bounds.

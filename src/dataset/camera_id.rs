@@ -1,6 +1,6 @@
 //! Which camera of a data set, and where its files lie.
 
-use super::DatasetError;
+use super::error::DatasetError;
 use std::collections::BTreeSet;
 use std::fmt;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,7 @@
 //! The designated landing point: its pixel in the first frame.
 
-use super::{DatasetError, read_timed_table, write_timed_table};
+use super::error::DatasetError;
+use super::storage::{read_timed_table, write_timed_table};
 use nalgebra::{Matrix2, Vector2};
 use std::path::Path;
 

@@ -12,10 +12,10 @@
 //! sigma_vertical_m = 0.03
 //! ```
 
-use super::picture_file::{RawPicture, read_header, read_numbers};
-use super::{
-    DatasetError, GroundMap, MapLevel, encode_grey_png, encode_scalar_tiff, read_depth_tiff, write_atomically,
-};
+use super::error::DatasetError;
+use super::ground_map::{GroundMap, MapLevel};
+use super::images::{RawPicture, encode_grey_png, encode_scalar_tiff, read_depth_tiff, read_header, read_numbers};
+use super::storage::write_atomically;
 use image::{DynamicImage, ImageBuffer};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -55,7 +55,7 @@ pub fn read_ground_map(folder: &Path) -> Result<GroundMap, DatasetError> {
         let cure = "name the folder of a map, as `opnav map` makes it".into();
         return Err(DatasetError::Missing { path, cure });
     }
-    let text = super::table::read_text(&path)?;
+    let text = super::storage::read_text(&path)?;
     let file: MapFile = toml::from_str(&text).map_err(|e| malformed(&path, &text, &e))?;
     file.check().map_err(|problem| DatasetError::Unusable { path, problem })?;
     let levels = file.levels.iter().map(|entry| entry.read(folder)).collect::<Result<_, _>>()?;
@@ -86,7 +86,7 @@ pub fn write_ground_map(folder: &Path, map: &GroundMap) -> Result<(), DatasetErr
         file.levels.push(entry);
     }
     let text = toml::to_string(&file).expect("a map file is plain data");
-    super::write_text(&folder.join(FILE), &text)
+    super::storage::write_text(&folder.join(FILE), &text)
 }
 
 fn malformed(path: &Path, text: &str, error: &toml::de::Error) -> DatasetError {

@@ -1,6 +1,7 @@
 //! IMU samples: `imu0/data.csv` and `imu0/sensor.yaml`.
 
-use super::{DatasetError, read_timed_table, write_text, write_timed_table};
+use super::error::DatasetError;
+use super::storage::{read_timed_table, write_text, write_timed_table};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -52,13 +53,13 @@ a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]";
 /// Names the file and line at fault.
 pub fn read_imu(root: &Path) -> Result<(ImuNoise, Vec<ImuSample>), DatasetError> {
     let table = read_timed_table(&root.join("imu0/data.csv"), 6)?;
-    let sample = |row: &super::TimedRow| ImuSample {
+    let sample = |row: &super::storage::TimedRow| ImuSample {
         t_ns: row.t_ns,
         rate_in_lander_rad_s: Vector3::from_column_slice(&row.values[..3]),
         specific_force_in_lander_m_s2: Vector3::from_column_slice(&row.values[3..]),
     };
     let sensor_path = root.join("imu0/sensor.yaml");
-    let text = super::table::read_text(&sensor_path)?;
+    let text = super::storage::read_text(&sensor_path)?;
     let noise: ImuNoise = serde_yaml_ng::from_str(&text)
         .map_err(|e| DatasetError::Unusable { path: sensor_path.clone(), problem: e.to_string() })?;
     let in_range = [noise.rate_hz, noise.gyroscope_noise_density, noise.accelerometer_noise_density]

@@ -1,6 +1,7 @@
 //! What a lander believes of itself at the first frame, before any picture: `initial_state.csv`.
 
-use super::{DatasetError, TimedRow, read_timed_table, write_timed_table};
+use super::error::DatasetError;
+use super::storage::{TimedRow, read_timed_table, write_timed_table};
 use nalgebra::{Isometry3, Translation3, Vector3};
 use std::path::Path;
 

@@ -1,12 +1,14 @@
 //! One result against the truth of its data set.
 
+use super::error::EvaluationError;
 use super::ground::{TrackedPixel, read_tracks};
 use super::landing::evaluate_landing;
+use super::metrics::Metrics;
 use super::pairs::evaluate_pairs;
+use super::summary::{Mission, Summary};
 use super::tracks::evaluate_tracks;
 use super::true_camera::TrueCamera;
 use super::tumbling::evaluate_tumbling;
-use super::{EvaluationError, Metrics, Mission, Summary};
 use crate::dataset::DatasetError;
 use std::path::Path;
 

@@ -1,7 +1,8 @@
 //! The ground that the track of the designated point was really on.
 
+use super::error::EvaluationError;
+use super::named_table::NamedTable;
 use super::true_camera::TrueCamera;
-use super::{EvaluationError, NamedTable};
 use crate::vision::TrackObservation;
 use nalgebra::{Vector2, Vector3};
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! Errors of a landing: state, consistency, trajectory, and the verdict at touchdown.
 
-use super::EvaluationError;
 use super::consistency::NormalizedSample;
+use super::error::EvaluationError;
 use super::ground::{TrackedGround, TrackedPixel, tracked_ground};
 use super::landing_epochs::{LandingEpoch, read_landing_epochs};
 use super::metrics::{Metrics, Series, Verdict};

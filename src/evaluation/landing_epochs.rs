@@ -1,6 +1,7 @@
 //! A landing result as it stands on disk, epoch by epoch.
 
-use super::{EvaluationError, NamedTable};
+use super::error::EvaluationError;
+use super::named_table::NamedTable;
 use crate::dataset::{DatasetError, TimedRow, read_timed_table};
 use nalgebra::{Isometry3, Quaternion, SMatrix, SVector, Translation3, UnitQuaternion, Vector3};
 use std::collections::HashMap;

@@ -1,6 +1,7 @@
 //! The outcome of an evaluation: figures with units, verdicts, and curves over time.
 
-use super::{EvaluationError, Mission};
+use super::error::EvaluationError;
+use super::summary::Mission;
 use crate::dataset::{DatasetError, write_text};
 use crate::stats::ConsistencyBounds;
 use serde::{Deserialize, Serialize};

@@ -4,7 +4,6 @@
 //! `metrics_series.json` into the result, and returns both as [`Metrics`]. Errors are always *true minus estimated*, in
 //! the frames that each figure's description names; normalised errors are judged by χ² bounds.
 
-mod campaign;
 mod consistency;
 mod error;
 mod evaluate;
@@ -23,10 +22,6 @@ mod true_motion;
 mod tumbling;
 mod tumbling_epochs;
 
-pub use campaign::{
-    Campaign, CampaignOptions, FieldOfView, FinalErrors, FlightEpoch, FlightRecord, TrueState, fly, run_campaign,
-    true_states,
-};
 pub use consistency::{Consistency, NormalizedSample, effective_samples};
 pub use error::EvaluationError;
 pub use evaluate::evaluate;

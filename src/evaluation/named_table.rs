@@ -1,6 +1,6 @@
 //! Result tables, whose columns are found by name so that their order is free.
 
-use super::EvaluationError;
+use super::error::EvaluationError;
 use crate::dataset::DatasetError;
 use std::path::{Path, PathBuf};
 

@@ -1,11 +1,12 @@
 //! Errors of the rotations between pairs of pictures.
 
 use super::consistency::NormalizedSample;
+use super::error::EvaluationError;
 use super::landing_epochs::rotation;
 use super::metrics::{Metrics, Series};
+use super::named_table::NamedTable;
 use super::spread::{median, percentile};
 use super::true_camera::TrueCamera;
-use super::{EvaluationError, NamedTable};
 use crate::geometry::so3::log;
 use crate::stats::ConsistencyBounds;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};

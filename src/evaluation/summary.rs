@@ -1,6 +1,6 @@
 //! What a result says of itself, `summary.json`.
 
-use super::EvaluationError;
+use super::error::EvaluationError;
 use crate::dataset::DatasetError;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

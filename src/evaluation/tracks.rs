@@ -1,6 +1,6 @@
 //! How well tracks stay on their surface points, by true depth and pose.
 
-use super::EvaluationError;
+use super::error::EvaluationError;
 use super::ground::TrackedPixel;
 use super::metrics::{Metrics, Series};
 use super::spread::{median, percentile};

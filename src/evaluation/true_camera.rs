@@ -1,6 +1,6 @@
 //! Where the camera truly was, and how far what it saw.
 
-use super::EvaluationError;
+use super::error::EvaluationError;
 use crate::dataset::{CameraSensor, DatasetError, read_camera_sensor, read_depth_tiff, read_tum};
 use nalgebra::{Isometry3, Point3, Vector2, Vector3};
 use std::collections::HashMap;

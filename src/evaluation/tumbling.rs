@@ -4,8 +4,8 @@
 //! a constant rotation that no picture can tell, so the truth is turned into the estimator's axes by its own attitude at
 //! `t0`: `estimate_from_truth = asteroid_from_inertial(t0)⁻¹`. Which axes the truth happens to use has no effect.
 
-use super::EvaluationError;
 use super::consistency::NormalizedSample;
+use super::error::EvaluationError;
 use super::metrics::{Metrics, Series};
 use super::spread::root_mean_square;
 use super::true_motion::asteroid_state_at;

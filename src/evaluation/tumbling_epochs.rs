@@ -1,7 +1,8 @@
 //! A tumbling result as it stands on disk, epoch by epoch.
 
+use super::error::EvaluationError;
 use super::landing_epochs::{read_covariances, rotation};
-use super::{EvaluationError, NamedTable};
+use super::named_table::NamedTable;
 use nalgebra::{SMatrix, UnitQuaternion, Vector3};
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! A central camera: focal lengths, principal point, distortion.
 
-use super::Distortion;
+use super::distortion::Distortion;
 use nalgebra::{Matrix2x3, Unit, Vector2, Vector3};
 use thiserror::Error;
 

@@ -1,6 +1,6 @@
 //! Numerical Jacobians, the reference that every analytic one is tested against.
 
-use super::Manifold;
+use super::so3::Manifold;
 use nalgebra::{SMatrix, SVector};
 
 /// Central-difference Jacobian (`M`×`N`) of `function` at `state`, both sides in their tangent spaces.

@@ -5,3 +5,5 @@ pub mod landing;
 pub mod landmark;
 pub mod observability;
 pub mod tumbling;
+
+pub use landing::{correct, predict};

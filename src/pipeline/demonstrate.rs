@@ -1,9 +1,14 @@
 //! Both missions end to end, small: render, track, navigate, evaluate, report.
 
-use super::{
-    LandRequest, PipelineError, Progress, SynthesizeRequest, TrackRequest, TumbleRequest, evaluate_result, land,
-    synthesize, track, tumble, write_page,
-};
+use super::error::PipelineError;
+use super::evaluate::evaluate_result;
+use super::land::{LandRequest, land};
+use super::page::write_page;
+use super::progress::Progress;
+use super::synthesize::SynthesizeRequest;
+use super::track::TrackRequest;
+use super::tumble::TumbleRequest;
+use super::{synthesize::synthesize, track::track, tumble::tumble};
 use crate::dataset::{CameraSource, FrameTimes, write_text};
 use crate::evaluation::Metrics;
 use crate::navigation::landing::LandingConfig;

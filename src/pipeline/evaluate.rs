@@ -1,6 +1,6 @@
 //! A result against the truth.
 
-use super::PipelineError;
+use super::error::PipelineError;
 use crate::evaluation::{Metrics, evaluate};
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! A data set in the formats of other tools.
 
-use super::PipelineError;
+use super::error::PipelineError;
 use crate::dataset::truth::{LandmarkObservation, camera_poses_file, read_landmarks, read_observations};
 use crate::dataset::{
     CameraId, ColmapImage, ColmapModel, ColmapPoint, StampedPose, find_cameras, read_camera_sensor, read_tum,

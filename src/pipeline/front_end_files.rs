@@ -1,10 +1,10 @@
 //! The files of a result that the front end fills: tables, chains of attitudes, pictures to look at.
 
-use super::PipelineError;
+use super::error::PipelineError;
 use crate::dataset::{DatasetError, ImageSequence, StampedPose, write_atomically, write_tum};
-use crate::vision::{
-    FrontEnd, TrackObservation, attitude_chains, contact_sheet, draw_tracks, write_relative_rotations, write_tracks,
-};
+use crate::observations::{attitude_chains, write_relative_rotations, write_tracks};
+use crate::report::{contact_sheet, draw_tracks};
+use crate::vision::{FrontEnd, TrackObservation};
 use image::{RgbImage, imageops};
 use rayon::prelude::*;
 use serde::Serialize;

@@ -1,6 +1,7 @@
 //! A scenario to a map of its landing area.
 
-use super::{PipelineError, Progress};
+use super::error::PipelineError;
+use super::progress::Progress;
 use crate::dataset::{GroundMap, write_ground_map, write_text};
 use crate::render::{Gpu, map_level};
 use crate::scene::{Scenario, Scene, SurveyLevel};

@@ -8,8 +8,6 @@ mod evaluate;
 mod export;
 mod front_end_files;
 mod land;
-mod land_map;
-mod land_notes;
 mod map;
 mod mask;
 mod montecarlo;
@@ -21,6 +19,14 @@ mod synthesize;
 mod track;
 mod tumble;
 
+pub use super::campaign::{CampaignOptions, FieldOfView};
+pub use crate::dataset::{CameraSource, FrameTimes};
+pub use crate::navigation::landing::{BiasPrior, FilterKind, ImageRotationUse, LandingConfig, LandmarkStart};
+pub use crate::navigation::landmark::Selector;
+pub use crate::navigation::tumbling::{Estimator, TumblingConfig};
+pub use crate::render::StageTime;
+pub use crate::scene::SurveyLevel;
+pub use crate::vision::{DescriptorKind, FrontEndConfig, FrontEndMode};
 pub use bench_render::{BenchRenderRequest, RenderTimes, bench_render};
 pub use demonstrate::{DemoOutcome, demonstrate};
 pub use doctor::{Diagnosis, diagnose};
@@ -37,13 +43,3 @@ pub use summary::{Summary, UnusedFrame};
 pub use synthesize::{SynthesizeRequest, Synthesized, synthesize};
 pub use track::{TrackRequest, track};
 pub use tumble::{TumbleRequest, tumble};
-
-// Settings that a caller of the stories chooses.
-pub use crate::dataset::{CameraSource, FrameTimes};
-pub use crate::evaluation::{CampaignOptions, FieldOfView};
-pub use crate::navigation::landing::{BiasPrior, FilterKind, ImageRotationUse, LandingConfig, LandmarkStart};
-pub use crate::navigation::landmark::Selector;
-pub use crate::navigation::tumbling::{Estimator, TumblingConfig};
-pub use crate::render::StageTime;
-pub use crate::scene::SurveyLevel;
-pub use crate::vision::{DescriptorKind, FrontEndConfig, FrontEndMode};

@@ -1,8 +1,10 @@
 //! A campaign of simulated landings: flown, tabled and drawn.
 
-use super::{PipelineError, Progress, Summary};
+use super::error::PipelineError;
+use super::progress::Progress;
+use super::summary::Summary;
+use crate::campaign::{Campaign, CampaignOptions, run_campaign};
 use crate::dataset::{DatasetError, write_text};
-use crate::evaluation::{Campaign, CampaignOptions, run_campaign};
 use crate::navigation::landmark::Selector;
 use crate::report::{Page, campaign_sections, write_report};
 use std::fmt::Write;

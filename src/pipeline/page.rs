@@ -1,6 +1,7 @@
 //! Result folders to one page.
 
-use super::{PipelineError, diagnose};
+use super::doctor::diagnose;
+use super::error::PipelineError;
 use crate::dataset::DatasetError;
 use crate::report::{Page, Picture, Section, environment_table, picture_png, result_section, write_report};
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! `summary.json`: what a result is and how it came about.
 
-use super::PipelineError;
+use super::error::PipelineError;
 use crate::dataset::{Frame, write_text};
 use crate::vision::{FrameReport, FrameStatus};
 use serde::Serialize;

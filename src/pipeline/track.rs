@@ -1,9 +1,10 @@
 //! Any folder of pictures to tracks and relative rotations.
 
+use super::error::PipelineError;
 use super::front_end_files::{write_front_end, write_pictures};
 use super::mask::read_mask;
-use super::summary::UnusedFrame;
-use super::{PipelineError, Progress, Summary};
+use super::progress::Progress;
+use super::summary::{Summary, UnusedFrame};
 use crate::dataset::{CameraSource, FrameTimes, ImageSequence};
 use crate::vision::{FrameReport, FrameStatus, FrontEnd, FrontEndConfig, TrackInputs, track_sequence};
 use std::ops::Range;

@@ -1,8 +1,10 @@
 //! A tumbling small body: pictures in; attitude, rate and inertia ratios out.
 
+use super::error::PipelineError;
 use super::front_end_files::{write_front_end, write_pictures};
+use super::progress::Progress;
+use super::summary::Summary;
 use super::track::{checked_frames, run_front_end};
-use super::{PipelineError, Progress, Summary};
 use crate::dataset::{CameraSource, ImageSequence, StampedPose, write_tum};
 use crate::navigation::tumbling::{
     TumblingConfig, TumblingEpoch, TumblingResult, estimate, write_covariance_csv, write_estimate_csv,

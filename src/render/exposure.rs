@@ -1,7 +1,9 @@
 //! Motion during the exposure: one picture as the mean of pictures at other moments, each row at its own times.
 
-use super::sub_pictures::SubPictures;
-use super::{RenderError, RenderedFrame, Renderer};
+use super::error::RenderError;
+use super::frame::RenderedFrame;
+use super::optics::SubPictures;
+use super::renderer::Renderer;
 use crate::geometry::Camera;
 use crate::scene::{ShutterConfig, View};
 use nalgebra::{Point3, Vector2};

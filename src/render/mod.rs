@@ -9,52 +9,25 @@
 //! What a shutter collects over time is a mean of such pictures ([`Renderer::expose`]); a [`Detector`] makes digital
 //! numbers of it, on the CPU.
 
-mod albedo_map;
-mod body_geometry;
-#[cfg(test)]
-mod compute_twin;
-mod enclosure;
+mod body;
 mod error;
 mod exposure;
 mod frame;
-mod geometry_pass;
 mod gpu;
-mod gpu_data;
-mod lens;
-mod noise;
+mod optics;
 mod orthoimage;
-mod photometry;
-mod projection;
-mod read_back;
 mod renderer;
-mod rock_mesh;
-mod rock_pages;
-mod sample_grid;
 mod sensor;
 mod shading;
-mod shading_pipelines;
-mod shadow;
 mod stars;
-mod sub_pictures;
 mod surface;
-mod targets;
-mod terrain_drawn;
-mod terrain_fit;
-mod terrain_geometry;
-mod terrain_levels;
-mod terrain_octaves;
-mod terrain_pool;
-mod terrain_rocks;
-mod terrain_tile;
-mod terrain_view;
-mod timing;
+mod terrain;
 
 pub use crate::scene::RenderConfig;
 pub use error::RenderError;
 pub use frame::RenderedFrame;
-pub use gpu::{AdapterReport, Gpu, list_adapters};
+pub use gpu::{AdapterReport, Gpu, StageTime, list_adapters};
 pub use orthoimage::map_level;
 pub use renderer::{Renderer, World};
 pub use sensor::Detector;
 pub use stars::add_stars;
-pub use timing::StageTime;

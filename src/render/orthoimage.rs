@@ -1,6 +1,10 @@
 //! Orthoimages: pictures from straight above, resampled to a grid on the ground.
 
-use super::{Gpu, RenderConfig, RenderError, RenderedFrame, Renderer, World};
+use super::RenderConfig;
+use super::error::RenderError;
+use super::frame::RenderedFrame;
+use super::gpu::Gpu;
+use super::renderer::{Renderer, World};
 use crate::dataset::MapLevel;
 use crate::geometry::Camera;
 use crate::scene::{SurveyLevel, Terrain, View};

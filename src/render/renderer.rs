@@ -1,13 +1,12 @@
 //! One picture: shadow map, samples, shading.
 
-use super::geometry_pass::Role;
-use super::lens::Lens;
-use super::shading::{ShadingJob, ShadingPass};
-use super::shadow::ShadowMap;
+use super::RenderConfig;
+use super::error::RenderError;
+use super::frame::RenderedFrame;
+use super::gpu::{Gpu, Role, SampleTarget, StageTime, submit_timed};
+use super::optics::Lens;
+use super::shading::{ShadingJob, ShadingPass, ShadowMap};
 use super::surface::Surface;
-use super::targets::SampleTarget;
-use super::timing::{StageTime, submit_timed};
-use super::{Gpu, RenderConfig, RenderError, RenderedFrame};
 use crate::geometry::Camera;
 use crate::scene::{SmallBody, Terrain, View};
 

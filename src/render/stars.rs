@@ -1,6 +1,6 @@
 //! Stars behind the surface.
 
-use super::RenderedFrame;
+use super::frame::RenderedFrame;
 use crate::geometry::Camera;
 use crate::scene::Sky;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};

@@ -1,18 +1,16 @@
 //! The surface being rendered, terrain or body, and the numbers of one view that its shaders read.
 
-use super::body_geometry::BodyGeometry;
-use super::geometry_pass::Role;
-use super::gpu_data::{Geometry, Shading, columns, dropped, four};
-use super::lens::Lens;
-use super::noise::octave_table;
-use super::photometry::{photometry_data, photometry_model};
-use super::shading::{ShadingJob, ShadingKind};
-use super::shadow::{ShadowBox, ShadowMap, shadow_axes, texture_from_clip};
-use super::terrain_geometry::TerrainGeometry;
-use super::terrain_levels::LevelRange;
-use super::terrain_octaves::ShadedWavelengths;
-use super::terrain_view::SeenGround;
-use super::{Gpu, RenderConfig, RenderError, World};
+use super::RenderConfig;
+use super::body::BodyGeometry;
+use super::error::RenderError;
+use super::gpu::{Geometry, Gpu, Role, Shading, columns, dropped, four};
+use super::optics::Lens;
+use super::renderer::World;
+use super::shading::{
+    ShadingJob, ShadingKind, ShadowBox, ShadowMap, octave_table, photometry_data, photometry_model, shadow_axes,
+    texture_from_clip,
+};
+use super::terrain::{LevelRange, SeenGround, ShadedWavelengths, TerrainGeometry};
 use crate::geometry::Camera;
 use crate::scene::{BodySurface, NoiseOctave, OctaveStrength, Photometry, View};
 use nalgebra::{Matrix4, Vector3};

@@ -1,6 +1,6 @@
 //! Everything that can be wrong with a scenario or a shape, each error naming the file or key and the cure.
 
-use super::TerrainConfigError;
+use super::terrain::TerrainConfigError;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -56,7 +56,7 @@ pub enum SceneError {
 
 impl SceneError {
     /// A setting outside its range.
-    pub(super) fn out_of_range(key: &str, value: impl Display, cure: impl Display) -> Self {
+    pub fn out_of_range(key: &str, value: impl Display, cure: impl Display) -> Self {
         SceneError::OutOfRange { key: key.into(), value: value.to_string(), cure: cure.to_string() }
     }
 

@@ -8,45 +8,19 @@
 
 mod attachment;
 mod body;
-mod camera_config;
-mod crater;
-mod depth_picture;
+mod camera;
 mod descent;
 mod elevation;
 mod error;
-mod imager;
+mod ideal;
 mod light;
-mod limits;
-mod mission_scene;
 mod noise;
-mod noise_octave;
-mod noise_table;
-mod octave_sums;
-mod optical_flow;
 pub mod photometry;
-mod render_config;
 mod scenario;
-mod scenario_file;
-mod sensed_motion;
 mod sensor;
 mod stars;
 mod survey;
 mod terrain;
-mod terrain_base;
-mod terrain_bins;
-mod terrain_config;
-mod terrain_features;
-mod terrain_hummock;
-mod terrain_patch;
-mod terrain_ray;
-mod terrain_ripple;
-mod terrain_rock;
-mod terrain_scatter;
-mod terrain_site;
-mod terrain_sizes;
-mod terrain_softened;
-mod terrain_unit;
-mod truth_config;
 mod tumbling;
 mod view;
 
@@ -58,43 +32,32 @@ pub use body::{
     AlbedoImage, AlbedoMapFile, BodySource, BodySurface, GlobeMap, LengthUnit, MassProperties, Mesh, MeshAlbedo,
     MeshFile, PictureEdge, ProceduralBody, SmallBody, SurfaceConfig,
 };
-pub use camera_config::{CameraConfig, DistortionConfig, DistortionModel};
-pub use crater::{CraterClass, FeatureSample};
-pub use depth_picture::{DepthPicture, observe_landmarks};
+pub use camera::{CameraConfig, DistortionConfig, DistortionModel, Imager, ImagerConfig, SceneCamera};
 pub use descent::{
     CameraMountConfig, DescentConfig, DescentMotion, DescentScene, FrameSchedule, GuidanceConfig, GuidanceProfile,
     ImuConfig, InitialErrorConfig, PolynomialGuidance, SunConfig,
 };
 pub use elevation::{
-    AlbedoValues, ElevationConfig, ElevationModel, ElevationSummary, Georeference, GroundBase, MapPlace, MapSite,
-    Orthoimage, OrthoimageConfig, Raster, RasterFile, RasterGeometry, RawLayout, SampleKind,
+    AlbedoValues, ElevationConfig, ElevationModel, ElevationSummary, Georeference, MapPlace, MapSite, Orthoimage,
+    OrthoimageConfig, Raster, RasterFile, RasterGeometry, RawLayout, SampleKind,
 };
 pub use error::SceneError;
-pub use imager::{Imager, ImagerConfig, SceneCamera};
+pub use ideal::{DepthPicture, SensedMotion, ideal_samples, observe_landmarks, optical_flow};
 pub use light::{EphemerisConfig, SunInIcrf, Sunlight, sun_angular_radius_rad};
-pub use mission_scene::{Mission, Scene};
 pub use noise::{
-    NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseSample, noise_2d, noise_3d,
+    NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseOctave, NoiseSample,
+    OctaveStrength, noise_2d, noise_3d,
 };
-pub use noise_octave::{NoiseOctave, OctaveStrength};
-pub use optical_flow::optical_flow;
 pub use photometry::{
     HapkeParameters, LunarWeight, PhotometricAngles, Photometry, chandrasekhar_h, oren_nayar_coefficients,
 };
-pub use render_config::RenderConfig;
-pub use scenario::Scenario;
-pub use sensed_motion::{SensedMotion, ideal_samples};
+pub use scenario::{Mission, RenderConfig, Scenario, Scene, TruthConfig};
 pub use sensor::{Exposure, FixedPatternConfig, SensorConfig, ShutterConfig, VignettingConfig};
 pub use stars::{Sky, SkyConfig, Star};
 pub use survey::SurveyLevel;
-pub use terrain::{GroundDetail, GroundSample, Terrain};
-pub use terrain_config::{TerrainConfig, TerrainConfigError};
-pub use terrain_hummock::HummockClass;
-pub use terrain_patch::TerrainPatch;
-pub use terrain_ripple::RippleClass;
-pub use terrain_rock::{Rock, RockClass, rock_density_1_m2};
-pub use terrain_scatter::{Feature, Scatter};
-pub use terrain_unit::UnitClass;
-pub use truth_config::TruthConfig;
+pub use terrain::{
+    CraterClass, Feature, FeatureSample, GroundBase, GroundDetail, GroundSample, HummockClass, RippleClass, Rock,
+    RockClass, Scatter, Terrain, TerrainConfig, TerrainConfigError, TerrainPatch, UnitClass, rock_density_1_m2,
+};
 pub use tumbling::{InertiaSource, PhaseConfig, RigidBody, Spin, TumblingConfig, TumblingScene};
 pub use view::View;

@@ -1,7 +1,9 @@
 //! A survey of the ground about a site from high above: what a map of it is made from.
 
-use super::{GroundDetail, SceneError, Terrain, limits};
+use super::error::SceneError;
+use super::terrain::{GroundDetail, Terrain};
 use crate::geometry::{Camera, Distortion};
+use crate::settings::limits;
 use crate::stats::random_stream;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 use rand::RngExt;

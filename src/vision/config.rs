@@ -1,7 +1,7 @@
 //! Parameters of the front end.
 
-use super::sift::{PATCH_CURE, PATCH_RANGE_PX};
-use super::{MatcherConfig, VisionError};
+use super::error::VisionError;
+use super::matching::{MatcherConfig, PATCH_CURE, PATCH_RANGE_PX};
 use serde::{Deserialize, Serialize};
 
 /// How the rotation between two pictures is found.

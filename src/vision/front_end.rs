@@ -1,6 +1,6 @@
 //! What the front end takes and gives.
 
-use super::{FrameStatus, RelativeRotation, TrackObservation};
+use super::result::{FrameStatus, RelativeRotation, TrackObservation};
 use crate::dataset::{DatasetError, DesignatedPoint, Frame};
 use image::GrayImage;
 use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector2, Vector3};

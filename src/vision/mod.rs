@@ -10,6 +10,7 @@
 #![cfg_attr(feature = "vision", doc = "```")]
 #![cfg_attr(not(feature = "vision"), doc = "```ignore")]
 //! use opnav::dataset::{CameraSource, ImageSequence};
+//! use opnav::observations::*;
 //! use opnav::vision::*;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -49,145 +50,36 @@
 //! # }
 //! ```
 
-#[cfg(feature = "vision")]
-mod adjacent_pair;
-mod attitude_chain;
-#[cfg(feature = "vision")]
-mod candidates;
-#[cfg(feature = "vision")]
-mod center_start;
-#[cfg(feature = "vision")]
-mod chain;
-#[cfg(feature = "vision")]
-mod cheirality;
-#[cfg(feature = "vision")]
-mod clusters;
-#[cfg(feature = "vision")]
 mod config;
-#[cfg(feature = "vision")]
-mod corner_peak;
-#[cfg(feature = "vision")]
-mod descriptions;
-#[cfg(feature = "vision")]
-mod descriptor;
-#[cfg(feature = "vision")]
 mod designated;
-#[cfg(feature = "vision")]
-mod designated_keyframes;
-#[cfg(feature = "vision")]
 mod error;
-#[cfg(feature = "vision")]
-mod evenly;
-#[cfg(feature = "vision")]
-mod fixed_center;
-#[cfg(feature = "vision")]
-mod frame_features;
-#[cfg(feature = "vision")]
+mod features;
 mod front_end;
-#[cfg(feature = "vision")]
-mod ground_fit;
-#[cfg(feature = "vision")]
-mod ground_model;
-#[cfg(feature = "vision")]
-mod ground_start;
-#[cfg(feature = "vision")]
-mod harris;
-#[cfg(feature = "vision")]
-mod harris_response;
-#[cfg(feature = "vision")]
-mod keep_out;
-#[cfg(feature = "vision")]
-mod keyframes;
-#[cfg(feature = "vision")]
-mod klt;
-#[cfg(feature = "vision")]
-mod line_filter;
-#[cfg(feature = "vision")]
-mod local_affine;
-#[cfg(feature = "vision")]
-mod local_maxima;
-#[cfg(feature = "vision")]
-mod lost_tracks;
-#[cfg(feature = "vision")]
 mod map;
-#[cfg(feature = "vision")]
-mod matcher_config;
-#[cfg(feature = "vision")]
+mod masks;
 mod matching;
-#[cfg(feature = "vision")]
-mod motion;
-#[cfg(feature = "vision")]
 mod opencv_bridge;
-#[cfg(feature = "vision")]
-mod orb;
-mod overlay;
-#[cfg(feature = "vision")]
-mod pair_fit;
-#[cfg(feature = "vision")]
-mod pair_models;
-#[cfg(feature = "vision")]
-mod pair_order;
-#[cfg(feature = "vision")]
+mod pair;
 mod patch;
-#[cfg(feature = "vision")]
-mod patch_stretch;
-#[cfg(feature = "vision")]
-mod picture_noise;
-#[cfg(feature = "vision")]
-mod plausible;
-#[cfg(feature = "vision")]
-mod pure_turn;
-#[cfg(feature = "vision")]
-mod relative_rotation;
 mod result;
-#[cfg(feature = "vision")]
-mod rivals;
-mod rotations_file;
-#[cfg(feature = "vision")]
 mod sequence;
-#[cfg(feature = "vision")]
-mod sharpen;
-#[cfg(feature = "vision")]
-mod sift;
-#[cfg(feature = "vision")]
-mod sight;
-#[cfg(feature = "vision")]
-mod silhouette;
-#[cfg(feature = "vision")]
-mod smooth_error;
-#[cfg(feature = "vision")]
-mod smooth_modes;
-mod text_table;
-#[cfg(feature = "vision")]
-mod tracks;
-mod tracks_file;
-#[cfg(feature = "vision")]
-mod usac;
+mod tracking;
 
-pub use attitude_chain::attitude_chains;
-#[cfg(feature = "vision")]
-pub use opencv_bridge::opencv_version;
-pub use overlay::{contact_sheet, draw_tracks};
-pub use result::{FrameStatus, MatchedPair, PairStatus, RelativeRotation, RotationModel, TrackObservation};
-pub use rotations_file::{read_relative_rotations, write_relative_rotations};
-pub use tracks_file::{read_tracks, write_tracks};
-
-#[cfg(feature = "vision")]
-pub use {
-    config::{DetectorConfig, FixedCenterConfig, FrontEndConfig, FrontEndMode, KltConfig, RotationConfig},
-    descriptor::{Descriptor, MatchLimits, Orientation},
-    error::VisionError,
-    fixed_center::{CenterProblem, CenterSolution, CenteredPair, rotations_about_center},
-    front_end::{DesignatedStep, FrameReport, FrontEnd, RotationPrediction, TrackInputs},
-    harris::{Feature, detect_harris},
-    klt::{KltPoint, track_patches},
-    map::{MapFix, MapMatchConfig, MapMatcher, MapSighting, MapStatus, PredictedCamera},
-    matcher_config::{DescriptorKind, MatcherConfig, SiftConfig},
-    matching::{Described, IndexMatch, match_features, match_features_guided},
-    orb::{OrbDescriptor, describe_orb},
-    picture_noise::noise_sigma_dn,
-    relative_rotation::{PairHints, PairSolution, PixelMatches, relative_rotation},
-    sequence::track_sequence,
-    sift::{SiftDescriptor, describe_sift},
-    silhouette::{bright_centroid_px, inside_silhouette},
+pub use config::{DetectorConfig, FixedCenterConfig, FrontEndConfig, FrontEndMode, KltConfig, RotationConfig};
+pub use error::VisionError;
+pub use features::{Feature, detect_harris, noise_sigma_dn};
+pub use front_end::{DesignatedStep, FrameReport, FrontEnd, RotationPrediction, TrackInputs};
+pub use map::{MapFix, MapMatchConfig, MapMatcher, MapSighting, MapStatus, PredictedCamera};
+pub use masks::{bright_centroid_px, inside_silhouette};
+pub use matching::{
+    Described, Descriptor, DescriptorKind, IndexMatch, MatchLimits, MatcherConfig, OrbDescriptor, Orientation,
+    SiftConfig, SiftDescriptor, describe_orb, describe_sift, match_features, match_features_guided,
 };
+pub use opencv_bridge::opencv_version;
+pub use pair::{
+    CenterProblem, CenterSolution, CenteredPair, PairHints, PairSolution, PixelMatches, relative_rotation,
+    rotations_about_center,
+};
+pub use patch::{KltPoint, track_patches};
+pub use result::{FrameStatus, MatchedPair, PairStatus, RelativeRotation, RotationModel, TrackObservation};
+pub use sequence::track_sequence;

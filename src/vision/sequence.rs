@@ -1,16 +1,13 @@
 //! The front end over a whole sequence.
 
-use super::chain::{Chain, link};
+use super::config::{FrontEndConfig, FrontEndMode};
 use super::designated::carry_designated;
-use super::fixed_center::{CenterProblem, CenteredPair, rotations_about_center};
-use super::frame_features::milliseconds;
+use super::error::VisionError;
 use super::front_end::{DesignatedStep, FrontEnd, RotationPrediction, TrackInputs};
-use super::keep_out::KeepOut;
-use super::keyframes::keyframe_rotations;
-use super::pair_order::rotations_in_order;
-use super::rivals::settle_rivals;
-use super::tracks::Tracks;
-use super::{FrontEndConfig, FrontEndMode, PairSolution, PairStatus, TrackObservation, VisionError};
+use super::masks::KeepOut;
+use super::pair::{CenterProblem, CenteredPair, PairSolution, rotations_about_center};
+use super::result::{PairStatus, TrackObservation};
+use super::tracking::{Chain, Tracks, keyframe_rotations, link, milliseconds, rotations_in_order, settle_rivals};
 use crate::dataset::{Frame, ImageSequence};
 use crate::geometry::Camera;
 use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector2, Vector3};

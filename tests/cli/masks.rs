@@ -4,7 +4,7 @@ use super::{assert_names, opnav, tracking_error};
 use crate::vision::texture::picture;
 use image::{GrayImage, Luma};
 use nalgebra::Vector2;
-use opnav::vision::read_tracks;
+use opnav::observations::read_tracks;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 

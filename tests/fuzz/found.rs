@@ -2,8 +2,8 @@
 
 use opnav::dataset::truth::read_flow;
 use opnav::dataset::{CameraSource, ImageSequence, read_camera_sensor, read_tum};
+use opnav::observations::read_relative_rotations;
 use opnav::scene::{Mesh, Raster, RasterFile};
-use opnav::vision::read_relative_rotations;
 
 fn folder() -> tempfile::TempDir {
     tempfile::tempdir().expect("a temporary folder")

@@ -4,7 +4,7 @@ use super::campaign::Target;
 use super::fuzzed;
 use opnav::dataset::*;
 use opnav::evaluation::Summary;
-use opnav::vision::*;
+use opnav::observations::*;
 use std::path::Path;
 
 fn target(name: &'static str, file: &'static str, whole: &[&str], read: fn(&Path) -> Result<(), String>) -> Target {

@@ -2,7 +2,7 @@
 //! must fail. Cheap versions run with the ordinary tests.
 
 use crate::bar::{Bar, check_table};
-use opnav::evaluation::{Campaign, CampaignOptions, FieldOfView, run_campaign};
+use opnav::campaign::{Campaign, CampaignOptions, FieldOfView, run_campaign};
 use opnav::navigation::landing::{FilterKind, LandingConfig};
 use opnav::navigation::landmark::Selector;
 

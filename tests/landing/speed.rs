@@ -5,7 +5,7 @@ use super::descent::{PLANET, exact_increment, truth};
 use crate::bar::{Bar, check_table};
 use cpu_time::ThreadTime;
 use nalgebra::{DMatrix, DVector, SMatrix, Unit, Vector3};
-use opnav::evaluation::{CampaignOptions, fly};
+use opnav::campaign::{CampaignOptions, fly};
 use opnav::navigation::filter::Gate;
 use opnav::navigation::landing::{
     BearingObservation, CorrectionModel, DescentEstimate, DescentState, FilterKind, LandingConfig, UnknownLandmark,

@@ -2,6 +2,8 @@
 
 use image::{GrayImage, Rgb};
 use nalgebra::{Matrix3, UnitQuaternion, Vector2, Vector3};
+use opnav::observations::*;
+use opnav::report::{contact_sheet, draw_tracks};
 use opnav::vision::*;
 use std::collections::HashMap;
 

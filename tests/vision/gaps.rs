@@ -4,6 +4,7 @@ use super::bearings::angle_deg;
 use super::sequences::*;
 use image::{GrayImage, Luma};
 use opnav::dataset::ImageSequence;
+use opnav::observations::*;
 use opnav::vision::*;
 use std::path::Path;
 

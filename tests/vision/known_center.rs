@@ -6,6 +6,7 @@ use super::bearings::{angle_deg, median, median_angle_deg};
 use nalgebra::{Isometry3, Point3, Unit, UnitQuaternion, Vector2, Vector3};
 use opnav::dataset::{CameraSource, ImageSequence, StampedPose, read_depth_tiff, read_tum};
 use opnav::geometry::Camera;
+use opnav::observations::*;
 use opnav::stats::random_stream;
 use opnav::vision::*;
 use rand_distr::{Distribution, StandardNormal};

@@ -7,6 +7,7 @@ use crate::bar::{Bar, check_table};
 use nalgebra::UnitQuaternion;
 use opnav::dataset::{CameraSource, ImageSequence};
 use opnav::evaluation::percentile;
+use opnav::observations::*;
 use opnav::vision::*;
 use std::ops::RangeInclusive;
 use std::path::Path;

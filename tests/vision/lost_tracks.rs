@@ -5,6 +5,7 @@ use super::sequences::{camera, config, frame, gyro, on_ground, pixel_at, t_ns, w
 use super::texture::picture;
 use image::GrayImage;
 use nalgebra::Vector2;
+use opnav::observations::*;
 use opnav::vision::*;
 use std::collections::HashMap;
 

@@ -6,6 +6,7 @@ use super::texture::picture;
 use image::{GrayImage, Luma};
 use nalgebra::{Matrix2, Vector2};
 use opnav::dataset::DesignatedPoint;
+use opnav::observations::*;
 use opnav::vision::*;
 
 /// Where the leg of the lander is in every picture.

@@ -3,6 +3,7 @@
 use super::bearings::*;
 use nalgebra::{Vector2, Vector3};
 use opnav::geometry::so3;
+use opnav::observations::*;
 use opnav::stats::random_stream;
 use opnav::vision::*;
 use rand_distr::{Distribution, StandardNormal};

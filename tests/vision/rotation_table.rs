@@ -5,6 +5,7 @@ use super::likelihood::most_likely_rotation;
 use crate::bar::{Bar, check_table};
 use nalgebra::Vector3;
 use opnav::geometry::so3;
+use opnav::observations::*;
 use opnav::vision::*;
 
 const NOISE_PX: [f64; 4] = [0.1, 0.3, 0.5, 1.0];

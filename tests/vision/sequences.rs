@@ -6,6 +6,7 @@ use image::GrayImage;
 use nalgebra::{Isometry3, Matrix2, Translation3, UnitQuaternion, Vector2, Vector3};
 use opnav::dataset::*;
 use opnav::geometry::{Camera, so3};
+use opnav::observations::*;
 use opnav::vision::*;
 use std::collections::HashMap;
 use std::path::Path;

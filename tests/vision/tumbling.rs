@@ -3,6 +3,7 @@
 use super::bearings::*;
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use opnav::geometry::{Camera, so3};
+use opnav::observations::*;
 use opnav::stats::random_stream;
 use opnav::vision::*;
 use rand_distr::{Distribution, StandardNormal};

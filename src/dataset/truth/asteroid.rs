@@ -1,7 +1,7 @@
 //! True motion and inertia of a small body: `truth/asteroid.csv` and `truth/asteroid.json`.
 
-use crate::dataset::table::read_text;
-use crate::dataset::{DatasetError, TimedRow, read_timed_table, write_text, write_timed_table};
+use crate::dataset::error::DatasetError;
+use crate::dataset::storage::{TimedRow, read_text, read_timed_table, write_text, write_timed_table};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use std::path::Path;

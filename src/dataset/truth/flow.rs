@@ -2,7 +2,7 @@
 //! little-endian (Baker et al., "A database and evaluation methodology for optical flow", 2011). Its readers, OpenCV's
 //! among them, take NaN for unknown.
 
-use crate::dataset::DatasetError;
+use crate::dataset::error::DatasetError;
 use nalgebra::Vector2;
 use std::path::Path;
 

@@ -1,7 +1,8 @@
 //! True states of a spacecraft: `truth/state.csv`, EuRoC's `state_groundtruth`.
 
-use super::truth_folder;
-use crate::dataset::{DatasetError, TimedRow, read_timed_table, write_timed_table};
+use super::layout::truth_folder;
+use crate::dataset::error::DatasetError;
+use crate::dataset::storage::{TimedRow, read_timed_table, write_timed_table};
 use nalgebra::{Isometry3, Translation3, Vector3};
 use std::path::Path;
 

@@ -1,8 +1,8 @@
 //! Landmarks on the surface and where they fall in the pictures.
 
-use super::truth_folder;
-use crate::dataset::table::read_text;
-use crate::dataset::{DatasetError, write_atomically};
+use super::layout::truth_folder;
+use crate::dataset::error::DatasetError;
+use crate::dataset::storage::{read_text, write_atomically};
 use nalgebra::{Vector2, Vector3};
 use serde::Deserialize;
 use std::path::Path;

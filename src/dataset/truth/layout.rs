@@ -1,6 +1,6 @@
 //! Where the ground truth of a camera lies.
 
-use crate::dataset::CameraId;
+use crate::dataset::camera_id::CameraId;
 use std::path::{Path, PathBuf};
 
 /// A kind of truth with a value for each pixel.

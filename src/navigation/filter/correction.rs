@@ -1,6 +1,6 @@
 //! The Kalman correction for error states of any size.
 
-use super::Innovation;
+use super::innovation::Innovation;
 use nalgebra::{DMatrix, DVector};
 
 /// What a measurement does to an estimate.

@@ -1,6 +1,8 @@
 //! Options of the landing navigation.
 
-use super::{ImageRotationUse, LandingError, Planet};
+use super::error::LandingError;
+use super::inertial::Planet;
+use super::propagation::ImageRotationUse;
 use crate::navigation::filter::Gate;
 use crate::navigation::landmark::{GroundPrior, Selector};
 use nalgebra::Vector3;

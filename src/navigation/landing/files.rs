@@ -1,6 +1,6 @@
 //! Result files.
 
-use super::LandingResult;
+use super::result::LandingResult;
 use crate::dataset::{DatasetError, write_timed_table};
 use std::path::Path;
 
@@ -16,7 +16,7 @@ const ERRORS: [&str; 9] = ["x", "y", "z", "vx", "vy", "vz", "roll", "pitch", "ya
 /// # Errors
 /// [`DatasetError::Io`] with the path.
 pub fn write_estimate_csv(path: &Path, result: &LandingResult) -> Result<(), DatasetError> {
-    let row = |epoch: &super::LandingEpoch| {
+    let row = |epoch: &super::result::LandingEpoch| {
         let (p, q) = (epoch.site_from_lander.translation, epoch.site_from_lander.rotation);
         let v = epoch.lander_velocity_in_site_m_s;
         let mut row = vec![p.x, p.y, p.z, q.w, q.i, q.j, q.k, v.x, v.y, v.z];

@@ -1,6 +1,8 @@
 //! What a descent brings, from the image front end and the sensors.
 
-use super::{CameraMount, ImageRotation, LandingError};
+use super::bearings::CameraMount;
+use super::error::LandingError;
+use super::propagation::ImageRotation;
 use crate::dataset::{ImuNoise, ImuSample, InitialState};
 use crate::geometry::Camera;
 use crate::vision::TrackObservation;

@@ -1,11 +1,13 @@
 //! A whole descent.
 
-use super::imu::{ImuIncrement, ImuRecord};
-use super::predict::predict;
-use super::result::ImuGap;
-use super::state::BIASES;
+use super::config::LandingConfig;
+use super::error::LandingError;
+use super::error_state::{BIASES, DescentEstimate};
+use super::inertial::{ImuIncrement, ImuRecord};
+use super::input::LandingInput;
+use super::propagation::predict;
+use super::result::{ImuGap, LandingEpoch, LandingResult};
 use super::step::{FrameInput, Navigator, StepReport, step};
-use super::{DescentEstimate, LandingConfig, LandingEpoch, LandingError, LandingInput, LandingResult};
 use crate::vision::TrackObservation;
 
 /// Spacing of the epochs after the last frame, ns.

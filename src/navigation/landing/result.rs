@@ -1,6 +1,8 @@
 //! What the navigation of a descent gives back.
 
-use super::{Contradiction, ImuBiases, RotationCheck};
+use super::bearings::Contradiction;
+use super::error_state::ImuBiases;
+use super::propagation::RotationCheck;
 use nalgebra::{Isometry3, SMatrix, Vector3};
 
 /// The estimate at one time.

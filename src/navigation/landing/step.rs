@@ -1,16 +1,13 @@
 //! One image of the descent.
 
-use super::correct::{CorrectionModel, Outcomes, correct};
-use super::designated::with_designated_errors;
-use super::imu::ImuIncrement;
-use super::initialize::initial_estimate;
-use super::measurement::{BearingObservation, CameraMount};
-use super::predict::predict;
-use super::recovery::Contradiction;
-use super::rotation::{ImageRotation, ImageRotationUse, RotationCheck};
-use super::select::{Selection, with_chosen, with_triangulated, without_lost};
-use super::state::ImuBiases;
-use super::{DescentEstimate, LandingConfig};
+use super::bearings::{BearingObservation, CameraMount, Contradiction, CorrectionModel, Outcomes, correct};
+use super::config::LandingConfig;
+use super::error_state::{DescentEstimate, ImuBiases};
+use super::inertial::ImuIncrement;
+use super::landmarks::{
+    Selection, initial_estimate, with_chosen, with_designated_errors, with_triangulated, without_lost,
+};
+use super::propagation::{ImageRotation, ImageRotationUse, RotationCheck, predict};
 use crate::dataset::InitialState;
 use std::collections::BTreeSet;
 

@@ -1,6 +1,7 @@
 //! What a landmark would do to the covariance over three epochs.
 
-use super::{Viewpoint, projector_over_range};
+use super::bearing::projector_over_range;
+use super::viewpoint::Viewpoint;
 use crate::geometry::so3::{hat, tangent_basis};
 use nalgebra::{Matrix3, SMatrix, Unit, Vector3};
 

@@ -1,7 +1,8 @@
 //! The classical observability metrics, the rivals of the depth error.
 
+use super::bearing::bearing_matrix;
 use super::lookahead::stacked_bearings;
-use super::{Viewpoint, bearing_matrix};
+use super::viewpoint::Viewpoint;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A measure of how well one known and one unknown landmark determine the state, on H_{1,1}'s four non-zero singular

@@ -1,6 +1,10 @@
 //! One interface to every way of choosing the unknown landmark.
 
-use super::{Metric, Triangle, Viewpoint, golden_section, metric, posterior_position_variance_m2, scaled_metric};
+use super::golden::golden_section;
+use super::lookahead::posterior_position_variance_m2;
+use super::metrics::{Metric, metric, scaled_metric};
+use super::triangle::Triangle;
+use super::viewpoint::Viewpoint;
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};

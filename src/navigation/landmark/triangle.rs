@@ -1,6 +1,7 @@
 //! The triangle of lander C, landmark P and the point D where the velocity line meets the ground (Li et al. 2023, fig. 2).
 
-use super::{Viewpoint, golden_section};
+use super::golden::golden_section;
+use super::viewpoint::Viewpoint;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 

@@ -1,6 +1,6 @@
 //! Settings of the tumbling estimators.
 
-use super::TumblingError;
+use super::error::TumblingError;
 use serde::{Deserialize, Serialize};
 
 /// Which estimator.

@@ -1,11 +1,11 @@
 //! The estimate from rotations between pictures: the recipe.
 
+use super::config::{Estimator, TumblingConfig};
+use super::error::TumblingError;
+use super::filters::{PaperFilter, chained_attitudes, filter_after_first_arc};
 use super::pair::{RotationPair, usable_pairs};
-use super::paper::{PaperFilter, chained_attitudes};
-use super::realtime::filter_after_first_arc;
 use super::result::{InertiaKnowledge, PairCount, TumblingEpoch, TumblingResult};
 use super::shooting::{ShootingFit, shoot};
-use super::{Estimator, TumblingConfig, TumblingError};
 use crate::vision::RelativeRotation;
 use nalgebra::SMatrix;
 

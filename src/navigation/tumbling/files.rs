@@ -1,6 +1,7 @@
 //! The result on disk.
 
-use super::{TumblingError, TumblingResult};
+use super::error::TumblingError;
+use super::result::TumblingResult;
 use crate::dataset::write_timed_table;
 use std::path::Path;
 

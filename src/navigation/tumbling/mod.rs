@@ -10,36 +10,22 @@
 //! with its errata put right (see [`PaperFilter`]): `ω̇ ≠ 0` does not imply full rank (one direction stays hidden on the
 //! separatrix), and rank 11 is generically reached with the third Lie derivative already ([`lie_derivatives`]).
 
-mod bound;
+mod bounds;
 mod config;
-mod determinacy;
-mod dynamics;
 mod error;
 mod estimate;
 mod files;
-mod fit;
-mod held;
-mod inertia;
-mod initial;
-mod lie;
+mod filters;
+mod motion;
 mod pair;
-mod paper;
-mod realtime;
 mod result;
 mod shooting;
-mod state;
-mod trajectory;
 
-pub use bound::{ArcBound, ArcDesign, arc_bound, planned_pairs};
+pub use bounds::{ArcBound, ArcDesign, UndeterminedDirection, arc_bound, lie_derivatives, planned_pairs};
 pub use config::{Estimator, PaperConfig, PaperIntegration, TumblingConfig};
-pub use determinacy::UndeterminedDirection;
-pub use dynamics::FreeBody;
 pub use error::TumblingError;
 pub use estimate::estimate;
 pub use files::{write_covariance_csv, write_estimate_csv};
-pub use inertia::{INERTIA_NAMES, InertiaRatios};
-pub use lie::lie_derivatives;
-pub use paper::PaperFilter;
+pub use filters::PaperFilter;
+pub use motion::{FreeBody, INERTIA_NAMES, InertiaRatios, Sensitivity, SpinState, TrajectoryPoint, propagate};
 pub use result::{InertiaKnowledge, TumblingEpoch, TumblingResult};
-pub use state::SpinState;
-pub use trajectory::{Sensitivity, TrajectoryPoint, propagate};

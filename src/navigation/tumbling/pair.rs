@@ -1,6 +1,7 @@
 //! Rotations between pictures as measurements of the motion.
 
-use super::{TrajectoryPoint, TumblingError};
+use super::error::TumblingError;
+use super::motion::TrajectoryPoint;
 use crate::geometry::so3::log;
 use crate::vision::{PairStatus, RelativeRotation};
 use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};

@@ -1,7 +1,7 @@
 //! What the estimators hand back.
 
-use super::determinacy::{UndeterminedDirection, determined_elements};
-use super::{InertiaRatios, SpinState};
+use super::bounds::{UndeterminedDirection, determined_elements};
+use super::motion::{InertiaRatios, SpinState};
 use nalgebra::{SMatrix, UnitQuaternion, Vector3};
 
 /// The estimate at one picture.

@@ -5,7 +5,8 @@ use super::frame::{DrawnFrame, FrameRecord, finish_frame};
 use super::run::FrameKey;
 use super::workers::draw_and_finish;
 use crate::geometry::Camera;
-use crate::pipeline::{PipelineError, Progress};
+use crate::pipeline::error::PipelineError;
+use crate::pipeline::progress::Progress;
 use crate::render::{Detector, Gpu, RenderedFrame, Renderer, World, add_stars};
 use crate::scene::{RenderConfig, Scenario, Scene};
 use std::collections::BTreeMap;
@@ -94,7 +95,7 @@ fn renderer_for<'a>(
 }
 
 /// What the renderer shows of a scene.
-pub(in crate::pipeline) fn world(scene: &Scene) -> World<'_> {
+pub fn world(scene: &Scene) -> World<'_> {
     match scene {
         Scene::Descent(scene) => World::Terrain(&scene.terrain),
         Scene::Tumbling(scene) => World::Body(&scene.body),

@@ -3,7 +3,8 @@
 use super::folder::DatasetFolder;
 use crate::dataset::truth::{TruthRaster, encode_flow};
 use crate::dataset::{Checksums, DatasetError, EarlierWork, read_depth_tiff, sha256_hex};
-use crate::pipeline::{PipelineError, Progress};
+use crate::pipeline::error::PipelineError;
+use crate::pipeline::progress::Progress;
 use crate::scene::{DepthPicture, Scene, SceneCamera, optical_flow};
 use rayon::prelude::*;
 use std::path::Path;

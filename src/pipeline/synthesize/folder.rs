@@ -6,7 +6,7 @@ use crate::dataset::{
     Checksums, DatasetError, EarlierWork, Journal, read_earlier_work, remove_partial_files, sha256_hex,
     write_atomically, write_text,
 };
-use crate::pipeline::PipelineError;
+use crate::pipeline::error::PipelineError;
 use crate::scene::Scenario;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

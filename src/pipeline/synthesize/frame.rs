@@ -3,7 +3,7 @@
 use super::folder::DatasetFolder;
 use crate::dataset::truth::{Landmark, LandmarkObservation, TruthRaster};
 use crate::dataset::{Checksums, DatasetError, encode_grey_png, encode_scalar_tiff, encode_vector_tiff};
-use crate::pipeline::PipelineError;
+use crate::pipeline::error::PipelineError;
 use crate::render::{Detector, RenderedFrame};
 use crate::scene::{DepthPicture, SceneCamera, TruthConfig, View, observe_landmarks};
 use image::{DynamicImage, GrayImage};

@@ -10,7 +10,7 @@ use crate::dataset::{
     CameraId, StampedPose, write_atomically, write_camera_sensor, write_designated, write_imu, write_imu_sensor,
     write_initial_state, write_tum,
 };
-use crate::pipeline::PipelineError;
+use crate::pipeline::error::PipelineError;
 use crate::scene::{AttachmentScene, DescentScene, Scene, SceneCamera};
 use std::collections::BTreeMap;
 use std::path::Path;

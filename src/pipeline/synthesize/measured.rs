@@ -1,7 +1,8 @@
 //! What is known of the measured ground under a descent.
 
 use crate::dataset::write_text;
-use crate::pipeline::{PipelineError, Progress};
+use crate::pipeline::error::PipelineError;
+use crate::pipeline::progress::Progress;
 use crate::scene::{ElevationSummary, Scene};
 use std::path::Path;
 

@@ -15,5 +15,5 @@ mod measured;
 mod run;
 mod workers;
 
-pub(super) use draw::world;
+pub use draw::world;
 pub use run::{SynthesizeRequest, Synthesized, synthesize};

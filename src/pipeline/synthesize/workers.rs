@@ -1,6 +1,6 @@
 //! Threads that finish what one thread draws, with a short queue between them.
 
-use crate::pipeline::PipelineError;
+use crate::pipeline::error::PipelineError;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};

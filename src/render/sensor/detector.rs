@@ -8,7 +8,7 @@ use super::shot_noise::shot;
 use super::vignetting::Vignetting;
 use crate::dataset::GreyPicture;
 use crate::geometry::Camera;
-use crate::render::RenderedFrame;
+use crate::render::frame::RenderedFrame;
 use crate::scene::SensorConfig;
 use crate::stats::{random_stream, sub_stream};
 use rand::Rng;

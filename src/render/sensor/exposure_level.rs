@@ -1,6 +1,6 @@
 //! Exposure: how many electrons an irradiance frees.
 
-use crate::render::RenderedFrame;
+use crate::render::frame::RenderedFrame;
 use crate::scene::{Exposure, SensorConfig};
 
 /// Electrons that an irradiance (I/F) of 1 frees; 0 if the exposure is automatic and nothing is lit.

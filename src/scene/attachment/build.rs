@@ -1,11 +1,17 @@
 //! From settings to an attachment scene.
 
-use super::{ApolloGuidance, AttachmentConfig, NodeMotion, TurningBody};
+use super::config::AttachmentConfig;
+use super::gravity::TurningBody;
+use super::guidance::ApolloGuidance;
+use super::node_motion::NodeMotion;
 use crate::dataset::truth::{LanderState, Landmark};
 use crate::dataset::{CameraId, CameraSensor, ImuNoise, ImuSample, InitialState};
 use crate::geometry::so3;
+use crate::scene::camera::{Imager, SceneCamera};
 use crate::scene::descent::{check_above_ground, landmarks_around_site};
-use crate::scene::{Imager, SceneCamera, SceneError, Terrain, View};
+use crate::scene::error::SceneError;
+use crate::scene::terrain::Terrain;
+use crate::scene::view::View;
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use std::path::Path;
 

@@ -1,7 +1,14 @@
 //! Settings of an attachment scene.
 
-use super::{ApproachConfig, BodyConfig, FlexConfig, NodeErrorConfig, NodeImuConfig};
-use crate::scene::{SceneError, SunConfig, TerrainConfig, limits};
+use super::gravity::BodyConfig;
+use super::guidance::ApproachConfig;
+use super::imu_simulation::NodeImuConfig;
+use super::initial_error::NodeErrorConfig;
+use super::link::FlexConfig;
+use crate::scene::descent::SunConfig;
+use crate::scene::error::SceneError;
+use crate::scene::terrain::TerrainConfig;
+use crate::settings::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,7 @@
 //! A turning small body: gravity and the apparent forces of a frame that turns with it.
 
-use crate::scene::{SceneError, limits};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

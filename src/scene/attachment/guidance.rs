@@ -1,6 +1,7 @@
 //! Guidance of the formation's centre: an acceleration that is quadratic in the time to go, as in Apollo's descents.
 
-use crate::scene::{SceneError, limits};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

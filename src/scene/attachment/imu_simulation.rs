@@ -1,9 +1,11 @@
 //! The inertial measurement unit of a node: white noise, and biases that wander.
 
-use super::NodeMotion;
+use super::node_motion::NodeMotion;
 use crate::dataset::truth::LanderState;
 use crate::dataset::{ImuBiasNoise, ImuNoise, ImuSample};
-use crate::scene::{SceneError, ideal_samples, limits};
+use crate::scene::error::SceneError;
+use crate::scene::ideal::ideal_samples;
+use crate::settings::limits;
 use crate::stats::random_stream;
 use nalgebra::Vector3;
 use rand::Rng;

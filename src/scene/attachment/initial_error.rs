@@ -3,7 +3,8 @@
 use crate::dataset::InitialState;
 use crate::dataset::truth::LanderState;
 use crate::geometry::Manifold;
-use crate::scene::{SceneError, limits};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use crate::stats::random_stream;
 use nalgebra::{Isometry3, Translation3, Vector3};
 use rand_distr::{Distribution, StandardNormal};

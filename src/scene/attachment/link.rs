@@ -1,6 +1,7 @@
 //! How the links between the spacecraft bend and twist: small slow vibrations of each about its place.
 
-use crate::scene::{SceneError, limits};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use crate::stats::random_stream;
 use nalgebra::SVector;
 use rand::{Rng, RngExt};

@@ -1,9 +1,11 @@
 //! Motion of one spacecraft of the formation.
 
-use super::{ApolloGuidance, Sinusoids, TurningBody};
+use super::gravity::TurningBody;
+use super::guidance::ApolloGuidance;
+use super::link::Sinusoids;
 use crate::dataset::truth::LanderState;
 use crate::geometry::so3;
-use crate::scene::SensedMotion;
+use crate::scene::ideal::SensedMotion;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 /// A spacecraft that keeps its place in the formation but for its vibration. Without vibration its axes are the site's.

@@ -1,8 +1,9 @@
 //! A shape file as a scenario names it.
 
-use super::shape_file::ShapeFile;
-use super::{AlbedoImage, Mesh, MeshAlbedo, PictureEdge};
-use crate::scene::{SceneError, limits};
+use super::formats::ShapeFile;
+use super::mesh::{AlbedoImage, Mesh, MeshAlbedo, PictureEdge};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};

@@ -1,7 +1,9 @@
 //! Where a small body's shape comes from.
 
-use super::{AlbedoMapFile, MassProperties, Mesh, MeshFile, ProceduralBody};
-use crate::scene::SceneError;
+use super::mesh::{AlbedoMapFile, MassProperties, Mesh};
+use super::mesh_file::MeshFile;
+use super::procedural::ProceduralBody;
+use crate::scene::error::SceneError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;

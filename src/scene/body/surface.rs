@@ -1,7 +1,9 @@
 //! A small body: its shape and how its surface looks.
 
-use super::{AlbedoMapFile, Mesh};
-use crate::scene::{Photometry, SceneError, limits};
+use super::mesh::{AlbedoMapFile, Mesh};
+use crate::scene::error::SceneError;
+use crate::scene::photometry::Photometry;
+use crate::settings::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,11 +1,16 @@
 //! From settings to a descent scene.
 
+use super::config::DescentConfig;
 use super::ground::{check_above_model, ground};
+use super::guidance::PolynomialGuidance;
 use super::landmarks::landmarks_around_site;
-use super::{DescentConfig, DescentMotion, PolynomialGuidance};
+use super::motion::DescentMotion;
 use crate::dataset::truth::{LanderState, Landmark};
 use crate::dataset::{CameraId, CameraSensor, DesignatedPoint, ImuNoise, ImuSample, InitialState};
-use crate::scene::{Imager, SceneCamera, SceneError, Terrain, View};
+use crate::scene::camera::{Imager, SceneCamera};
+use crate::scene::error::SceneError;
+use crate::scene::terrain::Terrain;
+use crate::scene::view::View;
 use nalgebra::{Isometry3, Point3, Unit, Vector3};
 use std::path::Path;
 
@@ -120,7 +125,7 @@ fn designated(config: &DescentConfig, first_camera: &SceneCamera, seed: u64) -> 
 }
 
 /// Refuses views from the ground or below; `key` is the terrain's in the scenario file.
-pub(in crate::scene) fn check_above_ground(key: &str, views: &[View], terrain: &Terrain) -> Result<(), SceneError> {
+pub fn check_above_ground(key: &str, views: &[View], terrain: &Terrain) -> Result<(), SceneError> {
     let clearance_m = |pose: &Isometry3<f64>| {
         let p = pose.translation.vector;
         p.z - terrain.height_m(p.x, p.y)

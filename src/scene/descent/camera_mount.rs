@@ -1,7 +1,8 @@
 //! How the camera is mounted on the lander.
 
 use crate::geometry::so3;
-use crate::scene::{SceneError, limits};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,9 +1,15 @@
 //! Settings of a descent.
 
-use super::{
-    CameraMountConfig, FrameSchedule, GuidanceConfig, ImuConfig, InitialErrorConfig, PolynomialGuidance, SunConfig,
-};
-use crate::scene::{ElevationConfig, OrthoimageConfig, SceneError, TerrainConfig, limits};
+use super::camera_mount::CameraMountConfig;
+use super::guidance::{GuidanceConfig, PolynomialGuidance};
+use super::imu_simulation::ImuConfig;
+use super::initial_error::InitialErrorConfig;
+use super::schedule::FrameSchedule;
+use super::sun::SunConfig;
+use crate::scene::elevation::{ElevationConfig, OrthoimageConfig};
+use crate::scene::error::SceneError;
+use crate::scene::terrain::TerrainConfig;
+use crate::settings::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,9 @@
 //! The ground under a descent.
 
-use super::DescentConfig;
-use crate::scene::{GroundBase, SceneError, Terrain, View};
+use super::config::DescentConfig;
+use crate::scene::error::SceneError;
+use crate::scene::terrain::{GroundBase, Terrain};
+use crate::scene::view::View;
 use std::path::Path;
 
 /// The ground, on what the scenario names of measured files; relative paths start at `base_folder`.

@@ -1,6 +1,7 @@
 //! Polynomial descent guidance: the position is a polynomial of time through given boundary conditions.
 
-use crate::scene::{SceneError, limits};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

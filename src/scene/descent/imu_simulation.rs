@@ -1,8 +1,10 @@
 //! What an integrating inertial measurement unit reports on a descent.
 
-use super::DescentMotion;
+use super::motion::DescentMotion;
 use crate::dataset::{ImuNoise, ImuSample};
-use crate::scene::{SceneError, ideal_samples, limits};
+use crate::scene::error::SceneError;
+use crate::scene::ideal::ideal_samples;
+use crate::settings::limits;
 use crate::stats::random_stream;
 use nalgebra::Vector3;
 use rand_distr::{Distribution, StandardNormal};

@@ -3,7 +3,8 @@
 use crate::dataset::truth::LanderState;
 use crate::dataset::{DesignatedPoint, InitialState};
 use crate::geometry::Manifold;
-use crate::scene::{SceneError, limits};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use crate::stats::random_stream;
 use nalgebra::{Isometry3, Matrix2, Translation3, Vector2, Vector3};
 use rand::RngExt;

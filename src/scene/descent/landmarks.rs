@@ -1,7 +1,7 @@
 //! Landmarks around the landing site.
 
 use crate::dataset::truth::Landmark;
-use crate::scene::Terrain;
+use crate::scene::terrain::Terrain;
 use nalgebra::Vector3;
 
 /// Distance of the nearest landmark from the site, m.
@@ -11,7 +11,7 @@ const TURN_RAD: f64 = 2.399_963_229_728_653;
 
 /// `count` points of the ground: the site itself, then points on a spiral whose radius grows by a constant ratio up to
 /// `farthest_m`, so that every height has some of them in its picture.
-pub(in crate::scene) fn landmarks_around_site(terrain: &Terrain, count: usize, farthest_m: f64) -> Vec<Landmark> {
+pub fn landmarks_around_site(terrain: &Terrain, count: usize, farthest_m: f64) -> Vec<Landmark> {
     let ratio = (farthest_m / NEAREST_M).max(1.0);
     let position_m = |index: usize| {
         if index == 0 {

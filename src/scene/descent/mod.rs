@@ -13,14 +13,13 @@ mod motion;
 mod schedule;
 mod sun;
 
-pub use build::DescentScene;
-pub(super) use build::check_above_ground;
+pub use build::{DescentScene, check_above_ground};
 pub use camera_mount::CameraMountConfig;
 pub use config::DescentConfig;
 pub use guidance::{GuidanceConfig, GuidanceProfile, PolynomialGuidance};
 pub use imu_simulation::ImuConfig;
 pub use initial_error::InitialErrorConfig;
-pub(super) use landmarks::landmarks_around_site;
+pub use landmarks::landmarks_around_site;
 pub use motion::DescentMotion;
 pub use schedule::FrameSchedule;
 pub use sun::SunConfig;

@@ -1,8 +1,8 @@
 //! Motion of a lander that points its thrust: pose, velocity, specific force and angular rate from one path.
 
-use super::PolynomialGuidance;
+use super::guidance::PolynomialGuidance;
 use crate::dataset::truth::LanderState;
-use crate::scene::SensedMotion;
+use crate::scene::ideal::SensedMotion;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 /// A lander on its path. Its z axis points along the thrust and its yaw is 0: the attitude is a pitch θ about y after a

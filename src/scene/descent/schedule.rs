@@ -1,7 +1,8 @@
 //! When pictures are taken on a descent.
 
-use super::PolynomialGuidance;
-use crate::scene::{SceneError, limits};
+use super::guidance::PolynomialGuidance;
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

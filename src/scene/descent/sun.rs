@@ -1,7 +1,8 @@
 //! Where the Sun stands over a landing site.
 
-use crate::scene::light::direction;
-use crate::scene::{EphemerisConfig, SceneError, Sunlight, limits};
+use crate::scene::error::SceneError;
+use crate::scene::light::{EphemerisConfig, Sunlight, direction};
+use crate::settings::limits;
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

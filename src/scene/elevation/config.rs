@@ -1,7 +1,8 @@
 //! Settings of elevation models and orthoimages.
 
-use super::RawLayout;
-use crate::scene::{SceneError, limits};
+use super::formats::RawLayout;
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

@@ -3,9 +3,10 @@
 use super::block_bounds::{BlockBounds, Blocks};
 use super::fill::fill_unknown;
 use super::grid::Grid;
+use super::map_place::MapPlace;
+use super::raster::Raster;
 use super::site_map::{Located, SiteMap};
-use super::{MapPlace, Raster};
-use crate::scene::SceneError;
+use crate::scene::error::SceneError;
 use nalgebra::{Vector2, Vector3};
 use serde::Serialize;
 

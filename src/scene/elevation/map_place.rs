@@ -1,7 +1,8 @@
 //! A place on a map.
 
-use super::{MapSite, Raster};
-use crate::scene::SceneError;
+use super::config::MapSite;
+use super::raster::Raster;
+use crate::scene::error::SceneError;
 use serde::Serialize;
 use std::fmt::{self, Display, Formatter};
 

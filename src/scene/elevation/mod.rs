@@ -4,32 +4,24 @@
 //! into the site frame, with the site's origin on the ground, and gives height, gradient and albedo at any place:
 //! bicubic between posts, with the planet's curvature if the map is in degrees, exact at the posts. Posts without data are
 //! filled from their surroundings and counted. Beyond the border the ground goes on with the border's heights; the path of
-//! a lander must stay inside. Procedural detail is added only below the posts' resolution, see [`Terrain`](super::Terrain).
+//! a lander must stay inside. Procedural detail is added only below the posts' resolution, see [`Terrain`](super::terrain::Terrain).
 
 mod block_bounds;
 mod config;
 mod elevation_model;
 mod fill;
-mod geokeys;
+mod formats;
 mod georeference;
-mod geotiff;
 mod grid;
-mod ground_base;
 mod map_place;
 mod orthoimage;
-mod pds;
-mod pds_label;
-mod pds_map;
-mod picture;
 mod raster;
-mod samples;
 mod site_map;
 
 pub use config::{AlbedoValues, ElevationConfig, MapSite, OrthoimageConfig, RasterFile, RasterGeometry};
 pub use elevation_model::{ElevationModel, ElevationSummary};
+pub use formats::{RawLayout, SampleKind};
 pub use georeference::Georeference;
-pub use ground_base::GroundBase;
 pub use map_place::MapPlace;
 pub use orthoimage::Orthoimage;
 pub use raster::Raster;
-pub use samples::{RawLayout, SampleKind};

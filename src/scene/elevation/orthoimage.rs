@@ -1,10 +1,12 @@
 //! An orthoimage in the site frame.
 
+use super::config::AlbedoValues;
 use super::fill::fill_unknown;
 use super::grid::Grid;
+use super::map_place::MapPlace;
+use super::raster::Raster;
 use super::site_map::SiteMap;
-use super::{AlbedoValues, MapPlace, Raster};
-use crate::scene::SceneError;
+use crate::scene::error::SceneError;
 use nalgebra::Vector3;
 
 /// Pixels beyond the border within which the picture fades to the terrain's mean albedo.

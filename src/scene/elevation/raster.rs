@@ -1,7 +1,9 @@
 //! A raster as it comes from a file.
 
-use super::{Georeference, RasterFile, RasterGeometry, geotiff, pds, picture};
-use crate::scene::SceneError;
+use super::config::{RasterFile, RasterGeometry};
+use super::formats::{geotiff, pds, png};
+use super::georeference::Georeference;
+use crate::scene::error::SceneError;
 use std::path::Path;
 
 /// Radius of Mars in m: that of its IAU sphere.
@@ -82,7 +84,7 @@ fn read_any(file: &RasterFile, path: &Path) -> Result<FileRaster, SceneError> {
     match bytes.get(..4) {
         Some(b"II*\0" | b"MM\0*" | b"II+\0" | b"MM\0+") => geotiff::read(&bytes, lacks_geometry).map_err(unusable),
         Some(b"\x89PNG" | b"\xff\xd8\xff\xe0" | b"\xff\xd8\xff\xe1" | b"\xff\xd8\xff\xdb" | b"\xff\xd8\xff\xee") => {
-            picture::read(&bytes).map_err(unusable)
+            png::read(&bytes).map_err(unusable)
         }
         _ => pds::read(path, bytes, lacks_geometry),
     }

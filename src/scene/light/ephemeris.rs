@@ -1,7 +1,7 @@
 //! Where the Sun stands according to SPICE kernels.
 
 use super::sunlight::ASTRONOMICAL_UNIT_M;
-use crate::scene::SceneError;
+use crate::scene::error::SceneError;
 use anise::prelude::{Almanac, Epoch, Frame};
 use nalgebra::{Unit, Vector3};
 use schemars::JsonSchema;

@@ -3,7 +3,5 @@
 mod ephemeris;
 mod sunlight;
 
-pub(super) use sunlight::direction;
-
 pub use ephemeris::{EphemerisConfig, SunInIcrf};
-pub use sunlight::{Sunlight, sun_angular_radius_rad};
+pub use sunlight::{Sunlight, direction, sun_angular_radius_rad};

@@ -1,6 +1,7 @@
 //! Sunlight as it reaches a scene.
 
-use crate::scene::{SceneError, limits};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use nalgebra::{Unit, Vector3};
 
 /// Nominal solar radius in m (IAU 2015 resolution B3).
@@ -31,7 +32,7 @@ pub fn sun_angular_radius_rad(distance_au: f64) -> f64 {
 }
 
 /// The direction of a vector of any length but 0.
-pub(in crate::scene) fn direction(key: &str, vector: &[f64; 3]) -> Result<Unit<Vector3<f64>>, SceneError> {
+pub fn direction(key: &str, vector: &[f64; 3]) -> Result<Unit<Vector3<f64>>, SceneError> {
     limits::finite(key, vector)?;
     Unit::try_new(Vector3::from(*vector), 1e-12)
         .ok_or_else(|| SceneError::out_of_range(key, format!("{vector:?}"), "it must not be the zero vector"))

@@ -1,7 +1,8 @@
 //! How much of the light that falls on a surface leaves it.
 
-use super::{PhotometricAngles, Photometry};
-use crate::scene::SceneError;
+use super::directions::PhotometricAngles;
+use super::model::Photometry;
+use crate::scene::error::SceneError;
 use std::f64::consts::PI;
 
 /// Rings of equal solid angle, and sectors of half a turn, in the integral over the hemisphere.

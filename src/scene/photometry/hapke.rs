@@ -1,9 +1,9 @@
 //! Hapke's law: a semi-infinite layer of grains with a rough surface.
 
-use super::PhotometricAngles;
 use super::chandrasekhar::chandrasekhar_h;
-use super::directions::LEAST_COSINE;
-use crate::scene::{SceneError, limits};
+use super::directions::{LEAST_COSINE, PhotometricAngles};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_1_PI, PI};

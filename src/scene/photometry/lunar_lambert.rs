@@ -1,6 +1,7 @@
 //! The lunar-Lambert law of McEwen (1991, 1996), with Lambert's and Lommel-Seeliger's laws as its ends.
 
-use crate::scene::{SceneError, limits};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

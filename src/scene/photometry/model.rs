@@ -1,7 +1,11 @@
 //! The choice of a photometric model.
 
-use super::{HapkeParameters, LunarWeight, PhotometricAngles, lunar_lambert, oren_nayar};
-use crate::scene::{SceneError, limits};
+use super::directions::PhotometricAngles;
+use super::hapke::HapkeParameters;
+use super::lunar_lambert::LunarWeight;
+use super::{lunar_lambert, oren_nayar};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! The law of Oren and Nayar (1994) for a rough surface of Lambertian facets.
 
-use super::PhotometricAngles;
+use super::directions::PhotometricAngles;
 
 /// C1 and C2 of the qualitative model for facets whose slopes have the standard deviation σ.
 pub fn oren_nayar_coefficients(slope_sigma_rad: f64) -> [f64; 2] {

@@ -1,7 +1,11 @@
 //! What the camera's detector does to a picture.
 
-use super::{Exposure, FixedPatternConfig, ShutterConfig, VignettingConfig};
-use crate::scene::{SceneError, limits};
+use super::exposure::Exposure;
+use super::fixed_pattern::FixedPatternConfig;
+use super::shutter::ShutterConfig;
+use super::vignetting::VignettingConfig;
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

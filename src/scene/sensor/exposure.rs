@@ -1,6 +1,7 @@
 //! How much light is collected.
 
-use crate::scene::{SceneError, limits};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

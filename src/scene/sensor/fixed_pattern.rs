@@ -1,6 +1,7 @@
 //! Differences between pixels that are the same in every picture of a camera.
 
-use crate::scene::{SceneError, limits};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

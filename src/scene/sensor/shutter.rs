@@ -1,6 +1,7 @@
 //! When light is collected.
 
-use crate::scene::{SceneError, limits};
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! Star catalogues.
 
-use crate::scene::SceneError;
+use crate::scene::error::SceneError;
 use nalgebra::{Unit, Vector3};
 use serde::Deserialize;
 use std::path::Path;

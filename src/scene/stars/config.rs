@@ -1,7 +1,9 @@
 //! Settings of the sky behind a small body.
 
-use super::{Sky, Star};
-use crate::scene::{SceneError, limits};
+use super::catalogue::Star;
+use super::sky::Sky;
+use crate::scene::error::SceneError;
+use crate::settings::limits;
 use nalgebra::UnitQuaternion;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
 //! The sky that pictures show behind a body.
 
-use super::Star;
+use super::catalogue::Star;
 use crate::geometry::Camera;
 use std::f64::consts::PI;
 

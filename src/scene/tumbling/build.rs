@@ -1,12 +1,16 @@
 //! From settings to a tumbling scene.
 
+use super::config::TumblingConfig;
 use super::placement::{first_distance_m, toward_pixel};
-use super::rigid_body::rows;
-use super::{RigidBody, Spin, TumblingConfig};
+use super::rigid_body::{RigidBody, Spin, rows};
 
 use crate::dataset::truth::{AsteroidInertia, AsteroidState, Landmark};
 use crate::dataset::{CameraId, CameraSensor};
-use crate::scene::{Imager, Mesh, SceneCamera, SceneError, Sky, SmallBody, View};
+use crate::scene::body::{Mesh, SmallBody};
+use crate::scene::camera::{Imager, SceneCamera};
+use crate::scene::error::SceneError;
+use crate::scene::stars::Sky;
+use crate::scene::view::View;
 use nalgebra::{Isometry3, Translation3, Unit, Vector2, Vector3};
 use std::path::Path;
 

@@ -1,7 +1,11 @@
 //! Settings of a tumbling scene.
 
-use super::{InertiaSource, PhaseConfig};
-use crate::scene::{BodySource, SceneError, SkyConfig, SurfaceConfig, limits};
+use super::inertia::InertiaSource;
+use super::placement::PhaseConfig;
+use crate::scene::body::{BodySource, SurfaceConfig};
+use crate::scene::error::SceneError;
+use crate::scene::stars::SkyConfig;
+use crate::settings::limits;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

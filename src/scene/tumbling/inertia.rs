@@ -1,7 +1,8 @@
 //! Where a body's inertia comes from.
 
-use super::RigidBody;
-use crate::scene::{MassProperties, SceneError};
+use super::rigid_body::RigidBody;
+use crate::scene::body::MassProperties;
+use crate::scene::error::SceneError;
 use nalgebra::Matrix3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

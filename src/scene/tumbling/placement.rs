@@ -1,9 +1,11 @@
 //! Where a small body and the Sun stand in the camera frame.
 
-use super::TumblingConfig;
+use super::config::TumblingConfig;
 use crate::geometry::Camera;
-use crate::scene::light::direction;
-use crate::scene::{EphemerisConfig, Mesh, SceneError, Sunlight, limits};
+use crate::scene::body::Mesh;
+use crate::scene::error::SceneError;
+use crate::scene::light::{EphemerisConfig, Sunlight, direction};
+use crate::settings::limits;
 use nalgebra::{Unit, UnitQuaternion, Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
 //! Torque-free motion of a rigid body.
 
-use crate::scene::SceneError;
+use crate::scene::error::SceneError;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 /// Turn of one integration step, rad: with the classical Runge–Kutta method it keeps energy and angular momentum to

@@ -1,16 +1,16 @@
 //! The pose of a badly predicted picture: descriptors matched anywhere, and the pose that most of them agree with.
 
-use super::PredictedCamera;
 use super::fit::{Pointing, fit_pose};
 use super::ground::Ground;
 use super::points::half_px;
+use super::result::PredictedCamera;
 use super::view::MapView;
 use crate::geometry::Camera;
+use crate::vision::config::DetectorConfig;
+use crate::vision::error::VisionError;
+use crate::vision::features::{Feature, detect_harris};
+use crate::vision::matching::{Described, MatcherConfig, OrbDescriptor, Orientation, describe_orb, match_features};
 use crate::vision::opencv_bridge::{mat_from, points};
-use crate::vision::{
-    Described, DetectorConfig, Feature, MatcherConfig, OrbDescriptor, Orientation, VisionError, describe_orb,
-    detect_harris, match_features,
-};
 use image::GrayImage;
 use nalgebra::{Isometry3, Matrix3, Translation3, Vector2, Vector3};
 use opencv::calib3d::{SOLVEPNP_P3P, solve_pnp_ransac};
@@ -44,7 +44,7 @@ pub(super) fn acquire(
         let (map_features, map_descriptors) = described(&view.picture, Some(&view.known))?;
         let there = Described { features: &map_features, descriptors: &map_descriptors };
         let matches = match_features(there, here, &MatcherConfig::default());
-        let pointing = |m: &crate::vision::IndexMatch| {
+        let pointing = |m: &crate::vision::matching::IndexMatch| {
             let meeting = view.meet(&map_features[m.from].pixel_px)?;
             let (point_in_site_m, pixel_px) = (meeting.point_in_site_m, features[m.to].pixel_px);
             Some(Pointing { point_in_site_m, pixel_px, sigma_px: CORNER_SIGMA_PX })

@@ -1,6 +1,6 @@
 //! Parameters of the matching with a map.
 
-use crate::vision::VisionError;
+use crate::vision::error::VisionError;
 use serde::{Deserialize, Serialize};
 
 /// Matching of pictures with a map.

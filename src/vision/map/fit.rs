@@ -1,6 +1,6 @@
 //! The pose from which points of the map are seen where they were found.
 
-use super::PredictedCamera;
+use super::result::PredictedCamera;
 use crate::geometry::{Camera, so3};
 use nalgebra::{Isometry3, Matrix2x6, Matrix3, Matrix6, Vector2, Vector3, Vector6};
 

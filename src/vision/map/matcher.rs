@@ -1,14 +1,15 @@
 //! One picture against the map.
 
 use super::acquire::acquire;
+use super::config::MapMatchConfig;
 use super::fit::{Pointing, fit_pose};
 use super::ground::{Ground, Meeting};
 use super::points::{FoundPoint, find, spread};
+use super::result::{MapFix, MapStatus, PredictedCamera};
 use super::view::MapView;
-use super::{MapFix, MapMatchConfig, MapStatus, PredictedCamera};
 use crate::dataset::GroundMap;
 use crate::geometry::Camera;
-use crate::vision::VisionError;
+use crate::vision::error::VisionError;
 use crate::vision::opencv_bridge::{grey_image, picture_mat};
 use image::GrayImage;
 use nalgebra::{Isometry3, Matrix2, Vector2, Vector3};

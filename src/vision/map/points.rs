@@ -1,11 +1,15 @@
 //! Points of the map that patches find in a picture.
 
+use super::config::MapMatchConfig;
 use super::fit::Pointing;
 use super::ground::Meeting;
+use super::result::MapSighting;
 use super::view::MapView;
-use super::{MapMatchConfig, MapSighting};
 use crate::dataset::MapLevel;
-use crate::vision::{DetectorConfig, KltConfig, VisionError, detect_harris, track_patches};
+use crate::vision::config::{DetectorConfig, KltConfig};
+use crate::vision::error::VisionError;
+use crate::vision::features::detect_harris;
+use crate::vision::patch::track_patches;
 use image::GrayImage;
 use nalgebra::{Matrix2, Vector2};
 
@@ -61,7 +65,7 @@ pub(super) fn find(
     let klt = KltConfig { half_px, ..KltConfig::default() };
     let found = track_patches((&view.picture, picture), &corners, &|pixel_px| Some(*pixel_px), &klt)?;
     let looks_px2 = Matrix2::identity() * config.looks_sigma_px.powi(2);
-    let point = |(corner, found): (&Vector2<f64>, &Option<crate::vision::KltPoint>)| {
+    let point = |(corner, found): (&Vector2<f64>, &Option<crate::vision::patch::KltPoint>)| {
         let found = found.as_ref()?;
         let covariance_px2 = found.covariance_px2 + looks_px2;
         let mut meeting = view.meet(corner)?;

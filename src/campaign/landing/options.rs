@@ -1,0 +1,138 @@
+//! What a campaign varies.
+
+use crate::evaluation::EvaluationError;
+use crate::geometry::Camera;
+use crate::navigation::landing::{CameraMount, LandingConfig, Planet};
+use crate::scene::{GuidanceConfig, GuidanceProfile};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// What the lander can see.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FieldOfView {
+    /// Every direction, and a surface point wherever one is wished for: the paper's simulation.
+    #[default]
+    Everywhere,
+    /// A 90° camera along the thrust axis, and features at random places of its picture.
+    Wide,
+    /// A 60° camera turned 20° towards the site.
+    Canted,
+}
+
+impl FieldOfView {
+    /// The camera, 1024² pixels; `None` for every direction.
+    pub fn mount(self) -> Option<CameraMount> {
+        // The camera's z axis looks along -z of the lander, its x along the lander's x.
+        let down = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
+        let (fov_deg, cant_deg) = match self {
+            FieldOfView::Everywhere => return None,
+            FieldOfView::Wide => (90.0_f64, 0.0_f64),
+            FieldOfView::Canted => (60.0, 20.0),
+        };
+        // The site lies towards -x, -y of the start: the camera turns about the axis across that.
+        let across = nalgebra::Unit::new_normalize(Vector3::z().cross(&Vector3::new(-3300.0, -5870.0, 0.0)));
+        let cant = UnitQuaternion::from_axis_angle(&across, -cant_deg.to_radians());
+        Some(CameraMount {
+            camera: Camera::from_fov(1024, 1024, fov_deg.to_radians()),
+            lander_from_camera: Isometry3::from_parts(Vector3::zeros().into(), cant * down),
+        })
+    }
+}
+
+/// Options of a campaign of simulated landings.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CampaignOptions {
+    /// Number of flights (default 300).
+    pub runs: u64,
+    /// Seed; flight k of a seed is the same whatever else is flown (default 1).
+    pub seed: u64,
+    /// The filter's options.
+    pub filter: LandingConfig,
+    /// The path.
+    pub guidance: GuidanceConfig,
+    /// True rotation of the planet in the site's axes, rad/s (default 0); the filter has its own.
+    pub planet_rate_in_site_rad_s: [f64; 3],
+    /// What the lander sees (default everywhere).
+    pub field_of_view: FieldOfView,
+    /// 1σ of a bearing, rad (default 1e-3).
+    pub sigma_bearing_rad: f64,
+    /// Share of bearings that are wrong by up to 20°, 0 to 0.5 (default 0).
+    pub outlier_share: f64,
+    /// Heights of smooth relief, m: then neighbouring landmarks have neighbouring heights. 0 (default) draws each
+    /// landmark's height from the ground prior, as the reference simulation does.
+    pub relief_m: f64,
+    /// Places of further known landmarks, site frame, m (default none).
+    pub known_landmarks_m: Vec<[f64; 3]>,
+    /// Accelerometer noise of a step of 1 s, m/s² (default 5e-4).
+    pub sigma_force_m_s2: f64,
+    /// Gyroscope noise of a step of 1 s, °/s (default 2.78e-5).
+    pub sigma_rate_deg_s: f64,
+}
+
+impl Default for CampaignOptions {
+    fn default() -> Self {
+        CampaignOptions {
+            runs: 300,
+            seed: 1,
+            filter: LandingConfig {
+                // Three images a landmark, the first of which places it.
+                reselect_after: 2,
+                gate_confidence: 1.0 - 1e-9,
+                ..LandingConfig::default()
+            },
+            guidance: GuidanceConfig::default(),
+            planet_rate_in_site_rad_s: [0.0; 3],
+            field_of_view: FieldOfView::Everywhere,
+            sigma_bearing_rad: 1e-3,
+            outlier_share: 0.0,
+            relief_m: 0.0,
+            known_landmarks_m: Vec::new(),
+            sigma_force_m_s2: 5e-4,
+            sigma_rate_deg_s: 2.78e-5,
+        }
+    }
+}
+
+impl CampaignOptions {
+    /// The path of fifth degree that starts with the paper's attitude: roll -25.7°, pitch -9.8°.
+    pub fn papers_attitude() -> GuidanceConfig {
+        GuidanceConfig {
+            profile: GuidanceProfile::Quintic { initial_acceleration_m_s2: [-0.767, 2.168, 0.729] },
+            ..GuidanceConfig::default()
+        }
+    }
+
+    /// The true planet.
+    pub fn planet(&self) -> Planet {
+        Planet {
+            gravity_in_site_m_s2: self.guidance.gravity_in_site_m_s2(),
+            rate_in_site_rad_s: Vector3::from(self.planet_rate_in_site_rad_s),
+        }
+    }
+
+    /// Checks every range.
+    ///
+    /// # Errors
+    /// Names the option at fault.
+    pub fn validate(&self) -> Result<(), EvaluationError> {
+        let wrong = |option: &'static str, problem: String| EvaluationError::Campaign { option, problem };
+        self.filter.validate().map_err(|e| wrong("filter", e.to_string()))?;
+        self.guidance.validate().map_err(|e| wrong("guidance", e.to_string()))?;
+        let known: f64 = self.known_landmarks_m.iter().flatten().sum();
+        let checks = [
+            ("runs", self.runs as f64, (1..=1_000_000).contains(&self.runs), "1 to 1000000"),
+            ("sigma_bearing_rad", self.sigma_bearing_rad, self.sigma_bearing_rad > 0.0, "above 0, such as 1e-3"),
+            ("outlier_share", self.outlier_share, (0.0..=0.5).contains(&self.outlier_share), "0 to 0.5"),
+            ("relief_m", self.relief_m, (0.0..=200.0).contains(&self.relief_m), "0 to 200"),
+            ("known_landmarks_m", known, true, "finite"),
+            ("sigma_force_m_s2", self.sigma_force_m_s2, self.sigma_force_m_s2 > 0.0, "above 0, such as 5e-4"),
+            ("sigma_rate_deg_s", self.sigma_rate_deg_s, self.sigma_rate_deg_s > 0.0, "above 0, such as 2.78e-5"),
+        ];
+        match checks.into_iter().find(|(_, value, fine, _)| !(*fine && value.is_finite())) {
+            Some((option, value, _, range)) => Err(wrong(option, format!("is {value}, not {range}"))),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Pictures and their lists: image sequences, image files, intensity scaling, rasters, the camera that took them.
+
+mod frame_list;
+mod grey_levels;
+mod image;
+mod image_file;
+mod raster;
+mod sensor;
+mod sequence;
+
+pub use frame_list::FrameTimes;
+pub use grey_levels::GreyLevels;
+pub use image::GreyPicture;
+pub use image_file::{RawPicture, read_header, read_numbers};
+pub use raster::{
+    encode_grey_png, encode_scalar_tiff, encode_vector_tiff, read_depth_tiff, read_mask_png, read_normals_tiff,
+    write_depth_tiff, write_grey_png,
+};
+pub use sensor::{CameraSensor, read_camera_sensor, write_camera_sensor};
+pub use sequence::{CameraSource, Frame, ImageSequence};

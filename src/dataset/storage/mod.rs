@@ -1,0 +1,11 @@
+//! How files are written and found again: atomic writes, tables, checksums, the journal of unfinished work, the manifest.
+
+mod atomic;
+mod journal;
+mod manifest;
+mod table;
+
+pub use atomic::{remove_partial_files, write_atomically, write_text};
+pub use journal::{Checksums, EarlierWork, Journal, read_earlier_work, sha256_hex};
+pub use manifest::{Manifest, read_manifest, write_manifest};
+pub use table::{TimedRow, TimedTable, parse_finite, read_text, read_timed_table, write_timed_table};

@@ -1,0 +1,7 @@
+//! Filters that run from picture to picture: the paper's, and the one for real time.
+
+mod paper_filter;
+mod realtime;
+
+pub use paper_filter::{PaperFilter, chained_attitudes};
+pub use realtime::filter_after_first_arc;

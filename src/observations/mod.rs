@@ -1,0 +1,11 @@
+//! What the front end writes and navigation reads: tracks, rotations of picture pairs, statuses of pictures, and their
+//! files. Free of OpenCV, so that whoever has observations of another make navigates by them alike.
+
+mod attitude_chains;
+mod rotations_file;
+mod text_table;
+mod tracks_file;
+
+pub use attitude_chains::attitude_chains;
+pub use rotations_file::{read_relative_rotations, write_relative_rotations};
+pub use tracks_file::{read_tracks, write_tracks};

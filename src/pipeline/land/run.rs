@@ -1,0 +1,230 @@
+//! A descent: pictures and IMU in, the lander's state out.
+
+use super::map_sightings::known_sightings;
+use super::notes::{land_notes, map_note};
+use crate::dataset::{
+    CameraSource, ImageSequence, StampedPose, read_designated, read_ground_map, read_imu, read_initial_state, write_tum,
+};
+use crate::navigation::landing::{
+    ImageRotation, ImuBiases, ImuRecord, LandingConfig, LandingEpoch, LandingInput, LandingResult, navigate,
+    write_covariance_csv, write_estimate_csv,
+};
+use crate::pipeline::error::PipelineError;
+use crate::pipeline::front_end_files::{write_front_end, write_pictures};
+use crate::pipeline::progress::Progress;
+use crate::pipeline::summary::Summary;
+use crate::pipeline::track::run_front_end;
+use crate::vision::{DesignatedStep, FrontEnd, FrontEndConfig, PairStatus, RelativeRotation, TrackInputs};
+use nalgebra::Isometry3;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// What to navigate by, and where the result goes.
+#[derive(Debug, Clone)]
+pub struct LandRequest {
+    /// A data set with `imu0/`, `designated.csv` and `initial_state.csv`.
+    pub folder: PathBuf,
+    /// The result's folder.
+    pub out: PathBuf,
+    /// The folder of a map that gives known points, if any.
+    pub map: Option<PathBuf>,
+    /// Filter settings.
+    pub config: LandingConfig,
+    /// Front-end settings.
+    pub front_end: FrontEndConfig,
+}
+
+/// Tracks the pictures, runs the landing filter and writes the result.
+///
+/// # Errors
+/// Missing or malformed inputs, or a file that cannot be written.
+pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, PipelineError> {
+    let sequence = ImageSequence::open(&request.folder, &CameraSource::Folder)?;
+    let (imu_noise, imu) = read_imu(&sequence.root)?;
+    let designated = read_designated(&sequence.root)?;
+    let initial = read_initial_state(&sequence.root)?;
+    let front_end_config = with_gyro_prior(&request.front_end);
+    let map = request.map.as_deref().map(read_ground_map).transpose()?;
+    let options = serde_json::json!({
+        "folder": request.folder.display().to_string(),
+        "map": request.map.as_ref().map(|folder| folder.display().to_string()),
+        "filter": request.config,
+        "front_end": front_end_config,
+    });
+    let mut summary = Summary::new("landing", options);
+    let lander_from_camera = sequence.sensor.spacecraft_from_camera;
+    let record = ImuRecord { samples: &imu, noise: &imu_noise };
+    let prior = |from_ns: i64, to_ns: i64| {
+        let lander_from_from_lander_to = record.between(from_ns, to_ns, &ImuBiases::default()).ok()?.before_from_after;
+        let mount = lander_from_camera.rotation;
+        Some(mount.inverse() * lander_from_from_lander_to.inverse() * mount)
+    };
+    let inputs = TrackInputs {
+        frames: 0..sequence.frames.len(),
+        every: 1,
+        rotation_prior: Some(&prior),
+        designated: Some(designated),
+        mask: None,
+    };
+    let front_end = run_front_end(&sequence, &front_end_config, &inputs, (progress, &mut summary))?;
+    let mut input = LandingInput {
+        imu: imu.clone(),
+        imu_noise,
+        camera: sequence.sensor.camera,
+        lander_from_camera,
+        observations: front_end.observations.clone(),
+        frame_times_ns: front_end.frames.iter().map(|f| f.t_ns).collect(),
+        initial,
+        known: Vec::new(),
+        rotations: image_rotations(&front_end, &lander_from_camera),
+    };
+    if let Some(map) = &map {
+        let designated = front_end.designated.as_slice();
+        let sighted = known_sightings(&sequence, &input, (map, designated, &request.config), (progress, &mut summary))?;
+        summary.notes.extend(map_note(&sighted.points));
+        input.known = sighted.known;
+    }
+    let start = Instant::now();
+    progress.begin("navigating", input.frame_times_ns.len());
+    let config = with_designated_errors(&request.config, &front_end);
+    let result = navigate(&input, &config, &|done| progress.advance_to(done))?;
+    progress.end();
+    summary.timing_ms.insert("filter".into(), start.elapsed().as_secs_f64() * 1e3);
+    describe(&result, &config, &mut summary);
+    write_result(&request.out, &sequence, (&front_end, &result))?;
+    summary.write(&request.out)?;
+    Ok(summary)
+}
+
+/// 1σ of a rotation that the gyroscope predicts between two pictures, rad: its noise over seconds, and a margin for the
+/// camera's mounting. Tight enough to tell the right one of two rotations that explain a plane equally well.
+const GYRO_SIGMA_RAD: f64 = 1e-3;
+
+fn with_gyro_prior(front_end: &FrontEndConfig) -> FrontEndConfig {
+    let mut config = front_end.clone();
+    config.rotation.prior_sigma_rad = config.rotation.prior_sigma_rad.min(GYRO_SIGMA_RAD);
+    config
+}
+
+/// The filter's options with what the front end says of the designated point: 1σ of the pixel that names it, and of the
+/// drift of its track in each picture.
+fn with_designated_errors(config: &LandingConfig, front_end: &FrontEnd) -> LandingConfig {
+    let steps = &front_end.designated;
+    let Some(first) = steps.first() else { return config.clone() };
+    LandingConfig {
+        designated_sigma_px: first.step_sigma_px,
+        designated_drift_px: drift_a_picture_px(steps),
+        ..config.clone()
+    }
+}
+
+/// 1σ in px of independent steps, one a picture, that would lead the track as far off over the ground as its drift does.
+/// The steps that were taken are larger: ties to older pictures take much of their errors back.
+fn drift_a_picture_px(steps: &[DesignatedStep]) -> f64 {
+    let drift_first_px2 = steps.iter().map(|s| s.drift_first_px2).fold(0.0, f64::max);
+    let of_unit_steps = steps.iter().skip(1).map(|s| s.pixel_size.powi(2)).sum::<f64>();
+    if of_unit_steps > 0.0 { (drift_first_px2 / of_unit_steps).sqrt() } else { 0.0 }
+}
+
+/// The rotations between adjacent pictures in lander axes.
+fn image_rotations(front_end: &FrontEnd, lander_from_camera: &Isometry3<f64>) -> Vec<ImageRotation> {
+    let mount = lander_from_camera.rotation;
+    let turn = mount.to_rotation_matrix().into_inner();
+    let adjacent = |r: &&RelativeRotation| {
+        front_end.frames.windows(2).any(|pair| (pair[0].t_ns, pair[1].t_ns) == (r.t_ns_from, r.t_ns_to))
+    };
+    let usable = front_end.rotations.iter().filter(|r| r.status == PairStatus::Ok);
+    let mut rotations: Vec<ImageRotation> = usable
+        .filter(adjacent)
+        .map(|r| ImageRotation {
+            from_t_ns: r.t_ns_from,
+            to_t_ns: r.t_ns_to,
+            after_from_before: mount * r.camera_to_from_camera_from * mount.inverse(),
+            covariance_rad2: turn * r.covariance_rad2 * turn.transpose(),
+        })
+        .collect();
+    rotations.sort_by_key(|r| r.to_t_ns);
+    rotations.dedup_by_key(|r| r.to_t_ns);
+    rotations
+}
+
+fn write_result(
+    out: &Path,
+    sequence: &ImageSequence,
+    (front_end, result): (&FrontEnd, &LandingResult),
+) -> Result<(), PipelineError> {
+    write_front_end(out, front_end)?;
+    write_pictures(out, sequence, front_end)?;
+    write_estimate_csv(&out.join("estimate.csv"), result)?;
+    write_covariance_csv(&out.join("covariance.csv"), result)?;
+    let pose = |e: &LandingEpoch| StampedPose { t_ns: e.t_ns, reference_from_moving: e.site_from_lander };
+    Ok(write_tum(&out.join("trajectory.tum"), &result.epochs.iter().map(pose).collect::<Vec<_>>())?)
+}
+
+/// Final state with 1σ, counts and notes for the summary.
+fn describe(result: &LandingResult, config: &LandingConfig, summary: &mut Summary) {
+    let with_image = result.epochs.iter().filter(|e| e.known_seen || e.unknown_track.is_some()).count();
+    summary.counts.insert("epochs".into(), result.epochs.len());
+    summary.counts.insert("epochs_with_bearings".into(), with_image);
+    summary.counts.insert("bearings_gated".into(), result.epochs.iter().map(|e| e.gated).sum());
+    let left_out = result.epochs.iter().filter(|e| e.contradiction.point_is_wrong && e.gated > 0).count();
+    summary.counts.insert("designated_left_out".into(), left_out);
+    summary.notes.extend(land_notes(result, config));
+    summary.counts.insert("map_points_used".into(), result.epochs.iter().map(|e| e.known_points).sum());
+    let Some(last) = result.epochs.last() else { return };
+    let sigma = last.covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
+    let (p, q, v) =
+        (last.site_from_lander.translation, last.site_from_lander.rotation, last.lander_velocity_in_site_m_s);
+    summary.last = serde_json::json!({
+        "t_ns": last.t_ns,
+        "position_in_site_m": [p.x, p.y, p.z],
+        "sigma_position_m": [sigma[0], sigma[1], sigma[2]],
+        "velocity_in_site_m_s": [v.x, v.y, v.z],
+        "sigma_velocity_m_s": [sigma[3], sigma[4], sigma[5]],
+        "site_from_lander_wxyz": [q.w, q.i, q.j, q.k],
+        "sigma_attitude_in_site_rad": [sigma[6], sigma[7], sigma[8]],
+        "biases": last.biases.map(|(biases, sigma)| serde_json::json!({
+            "gyroscope_rad_s": biases.gyroscope_rad_s.as_slice(),
+            "accelerometer_m_s2": biases.accelerometer_m_s2.as_slice(),
+            "sigma_gyroscope_rad_s": &sigma[..3],
+            "sigma_accelerometer_m_s2": &sigma[3..],
+        })),
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Matrix2, Vector2};
+
+    fn steps(step_px: f64, ratio: f64) -> Vec<DesignatedStep> {
+        let mut drift_first_px2 = 0.0;
+        let step = |k: i32| {
+            let pixel_size = ratio.powi(k);
+            drift_first_px2 += if k > 0 { (step_px * pixel_size).powi(2) } else { 0.0 };
+            DesignatedStep {
+                t_ns: i64::from(k),
+                pixel_px: Vector2::zeros(),
+                step_sigma_px: step_px,
+                covariance_px2: Matrix2::identity(),
+                pixel_size,
+                drift_first_px2,
+                t_ns_from: i64::from(k - 1),
+                refined: true,
+            }
+        };
+        (0..50).map(step).collect()
+    }
+
+    #[test]
+    fn independent_steps_drift_by_their_own_size() {
+        for ratio in [1.0, 0.9] {
+            assert!((drift_a_picture_px(&steps(0.04, ratio)) - 0.04).abs() < 1e-12);
+        }
+        let mut held = steps(0.04, 0.9);
+        held.iter_mut().for_each(|s| s.drift_first_px2 *= 0.25);
+        assert!((drift_a_picture_px(&held) - 0.02).abs() < 1e-12, "ties to older pictures that hold the point");
+        assert_eq!(drift_a_picture_px(&held[..1]), 0.0);
+        assert_eq!(drift_a_picture_px(&[]), 0.0);
+    }
+}

@@ -1,0 +1,9 @@
+//! Small bodies on the adapter: vertices, albedo, and what hides what.
+
+mod albedo_map;
+mod body_geometry;
+mod enclosure;
+
+#[cfg(test)]
+pub use albedo_map::SOURCE;
+pub use body_geometry::BodyGeometry;

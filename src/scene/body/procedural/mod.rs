@@ -1,0 +1,9 @@
+//! Bodies made of nothing: relief, craters and boulders on an icosphere.
+
+mod boulder;
+mod build;
+mod crater;
+mod icosphere;
+mod relief;
+
+pub use build::ProceduralBody;

@@ -1,0 +1,19 @@
+//! The ground: relief and features over a plane or a measured base, its rays and patches.
+
+mod config;
+mod features;
+mod measured_base;
+mod on_base;
+mod patch;
+mod ray;
+mod relief;
+mod terrain;
+
+pub use config::{TerrainConfig, TerrainConfigError};
+pub use features::{
+    CraterClass, Feature, FeatureSample, HummockClass, RippleClass, Rock, RockClass, Scatter, UnitClass,
+    rock_density_1_m2,
+};
+pub use measured_base::GroundBase;
+pub use patch::TerrainPatch;
+pub use terrain::{GroundDetail, GroundSample, Terrain};

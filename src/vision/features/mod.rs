@@ -1,0 +1,12 @@
+//! Corners: response, maxima, sub-pixel peak with its covariance, spread over the picture, the picture's noise.
+
+mod even_spread;
+mod harris;
+mod harris_response;
+mod image_noise;
+mod line_filter;
+mod local_maxima;
+mod subpixel_peak;
+
+pub use harris::{Feature, detect_harris};
+pub use image_noise::noise_sigma_dn;

@@ -1,0 +1,197 @@
+//! The rotation between two pictures of any scene: a body, ground with or without relief, or a pure turn.
+
+use super::hypotheses::{Fits, Ranked};
+use super::motion::Motion;
+use super::normalized_match::{Sight, sights};
+use super::pure_rotation::judge_turn;
+use super::usac;
+use crate::geometry::Camera;
+use crate::vision::config::RotationConfig;
+use crate::vision::error::VisionError;
+use crate::vision::result::{MatchedPair, PairStatus, RotationModel};
+use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
+
+/// What two pictures say about the motion between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairSolution {
+    /// Rotation from the first camera's axes to the second's; identity where the status is not ok.
+    pub camera_to_from_camera_from: UnitQuaternion<f64>,
+    /// Covariance (rad²) of the error `d` in `true = exp(d) * estimated`, axes of the second camera; zero where the
+    /// status is not ok.
+    pub covariance_rad2: Matrix3<f64>,
+    /// Direction of the translation in the second camera (`x_to = R x_from + t`), where there is one.
+    pub direction_in_to: Option<Unit<Vector3<f64>>>,
+    /// Normal of the dominant plane in the first camera, where the matches lie on one.
+    pub normal_in_from: Option<Unit<Vector3<f64>>>,
+    /// Which matches agree with the motion.
+    pub inliers: Vec<bool>,
+    /// Actual pixel noise over nominal pixel noise, as the residuals show it.
+    pub noise_scale: f64,
+    /// The model used.
+    pub model: RotationModel,
+    /// The outcome.
+    pub status: PairStatus,
+}
+
+impl PairSolution {
+    pub(in crate::vision) fn failed(status: PairStatus, matches: usize) -> Self {
+        PairSolution {
+            camera_to_from_camera_from: UnitQuaternion::identity(),
+            covariance_rad2: Matrix3::zeros(),
+            direction_in_to: None,
+            normal_in_from: None,
+            inliers: vec![false; matches],
+            noise_scale: 1.0,
+            model: RotationModel::None,
+            status,
+        }
+    }
+
+    /// Matches that agree.
+    pub fn inlier_count(&self) -> usize {
+        self.inliers.iter().filter(|i| **i).count()
+    }
+}
+
+/// Matched pixels with their noise.
+#[derive(Debug, Clone, Copy)]
+pub struct PixelMatches<'a> {
+    /// The pixels.
+    pub pair: &'a MatchedPair,
+    /// 1σ of each coordinate of each match in px (of either pixel; their mean where they differ).
+    pub sigma_px: &'a [f64],
+}
+
+/// What else is known of a pair.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PairHints {
+    /// Predicted rotation (from a gyroscope, say): a start, a judge between rival solutions, and a gate.
+    pub camera_to_from_camera_from: Option<UnitQuaternion<f64>>,
+    /// Normal of the ground in the first camera as the pair before found it: a judge between rival solutions only.
+    pub normal_in_from: Option<Unit<Vector3<f64>>>,
+}
+
+/// Rotation between two pictures from matched pixels.
+///
+/// Candidates come from USAC's essential matrix and homography. Each is refined to the greatest likelihood of a plane with
+/// relief about it, which holds both: it becomes the epipolar constraint where relief shows and the homography where it
+/// does not. Rival motions that explain the matches equally well and that no hint tells apart make the pair degenerate.
+///
+/// # Errors
+/// OpenCV's refusal. A pair without a sure rotation is an outcome ([`PairSolution::status`]), not an error.
+pub fn relative_rotation(
+    matches: PixelMatches,
+    camera: &Camera,
+    hints: &PairHints,
+    config: &RotationConfig,
+) -> Result<PairSolution, VisionError> {
+    let all = sights(matches.pair, matches.sigma_px, camera);
+    let usable: Vec<Sight> = all.iter().flatten().copied().collect();
+    if usable.len() < config.min_matches {
+        return Ok(PairSolution::failed(PairStatus::FewMatches, all.len()));
+    }
+    let focal_px = camera.mean_focal_px();
+    let homography = usac::homography(&usable, focal_px, config);
+    if homography.is_some_and(|h| is_mirror_image(&h, &usable, focal_px, config)) {
+        return Ok(PairSolution::failed(PairStatus::Rejected, all.len()));
+    }
+    let essential = usac::essential(&usable, focal_px, config)?;
+    let widest = config.threshold_px * 2.0 / median(matches.sigma_px);
+    let fits = Fits::new(&usable, widest, (homography.as_ref(), essential.as_ref()), (hints, config));
+    let mut solution = judge(&fits, (&usable, widest), (hints, config));
+    solution.inliers = spread(&solution.inliers, all.iter().map(Option::is_some));
+    Ok(solution)
+}
+
+/// Flags of chosen items, spread over all items.
+fn spread(flags: &[bool], chosen: impl Iterator<Item = bool>) -> Vec<bool> {
+    let mut flags = flags.iter();
+    chosen.map(|c| c && *flags.next().unwrap_or(&false)).collect()
+}
+
+/// Whether most matches follow a homography that turns the scene inside out.
+fn is_mirror_image(h: &Matrix3<f64>, sights: &[Sight], focal_px: f64, config: &RotationConfig) -> bool {
+    let agrees = |s: &&Sight| {
+        let p = h * s.first_ray();
+        p.z > 0.0 && (p.xy() / p.z - s.to).norm() * focal_px < 2.0 * config.threshold_px
+    };
+    h.determinant() < 0.0 && sights.iter().filter(agrees).count() * 3 > sights.len()
+}
+
+/// Chooses a motion, then holds it against every gate.
+fn judge(
+    fits: &Fits,
+    (sights, widest): (&[Sight], f64),
+    (hints, config): (&PairHints, &RotationConfig),
+) -> PairSolution {
+    let enough = (config.min_inlier_ratio * sights.len() as f64).max(config.min_matches as f64) as usize;
+    if let Some(turn) = fits.turn_alone((sights, widest), enough) {
+        let refused = |status| PairSolution { inliers: turn.inliers.clone(), ..PairSolution::failed(status, 0) };
+        return judge_turn(&turn, sights, config).unwrap_or_else(refused);
+    }
+    let Some(best) = fits.grounds.first() else {
+        return PairSolution::failed(PairStatus::Degenerate, sights.len());
+    };
+    let refused =
+        |status| PairSolution { inliers: best.fit.inliers.clone(), ..PairSolution::failed(status, sights.len()) };
+    if best.fit.inlier_count() < enough {
+        return refused(PairStatus::Rejected);
+    }
+    let motion = match choose(fits, sights, hints, config) {
+        Ok(chosen) => Motion::of(&chosen.fit, sights, config.smooth_error_share),
+        Err(status) => return refused(status),
+    };
+    let Some(motion) = motion.filter(|m| is_determined(&m.covariance_rad2, config)) else {
+        return refused(PairStatus::Degenerate);
+    };
+    PairSolution {
+        camera_to_from_camera_from: motion.rotation,
+        covariance_rad2: motion.covariance_rad2,
+        direction_in_to: motion.direction,
+        normal_in_from: Some(motion.normal),
+        inliers: motion.inliers,
+        noise_scale: motion.noise_scale,
+        model: motion.model,
+        status: PairStatus::Ok,
+    }
+}
+
+/// The likeliest motion, a prediction counting as a measurement; an error where nothing tells rivals apart or all
+/// contradict the prediction.
+fn choose<'a>(
+    fits: &'a Fits,
+    sights: &[Sight],
+    hints: &PairHints,
+    config: &RotationConfig,
+) -> Result<&'a Ranked, PairStatus> {
+    if let Some(predicted) = hints.camera_to_from_camera_from {
+        let off_rad = |r: &Ranked| r.fit.ground.rotation.angle_to(&predicted);
+        let cost = |r: &Ranked| fits.surprise(r, sights) + (off_rad(r) / config.prior_sigma_rad).powi(2);
+        let chosen = fits.grounds.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).ok_or(PairStatus::Degenerate)?;
+        let own = chosen.fit.rotation_covariance(sights).map_or(0.0, |c| c.trace());
+        let near = off_rad(chosen) < 5.0 * (config.prior_sigma_rad.powi(2) + own).sqrt();
+        return if near { Ok(chosen) } else { Err(PairStatus::Rejected) };
+    }
+    let mut all = fits.rivals(sights);
+    if all.len() == 1 {
+        return Ok(all[0]);
+    }
+    let normal = hints.normal_in_from.ok_or(PairStatus::Degenerate)?;
+    let off_rad = |r: &Ranked| r.fit.ground.normal.angle(&normal);
+    all.sort_by(|a, b| off_rad(a).total_cmp(&off_rad(b)));
+    let (best, next) = (off_rad(all[0]), off_rad(all[1]));
+    // The ground's slope changes little from picture to picture: the nearer normal must be near, and clearly nearer.
+    let clear = best < 0.15 && next > 2.0 * best && next > best + 0.1;
+    if clear { Ok(all[0]) } else { Err(PairStatus::Degenerate) }
+}
+
+pub(super) fn is_determined(covariance: &Matrix3<f64>, config: &RotationConfig) -> bool {
+    let greatest = covariance.symmetric_eigenvalues().max();
+    greatest.is_finite() && greatest.sqrt() < config.max_sigma_rad
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(1.0)
+}

@@ -1,0 +1,11 @@
+//! Patches: aligned to a fraction of a pixel, followed from picture to picture, warped as the surface turns.
+
+mod affine_alignment;
+mod alignment;
+mod local_affine;
+mod patch_tracker;
+
+pub use affine_alignment::refine_with_stretch;
+pub use alignment::refine_by_patch;
+pub use local_affine::{Affine, Match, fit_affine};
+pub use patch_tracker::{KltPoint, track_patches};

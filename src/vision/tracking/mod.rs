@@ -1,0 +1,18 @@
+//! From pairs to tracks: adjacent pairs, refined matches, chains, keyframe pairs, tracks that coast.
+
+mod adjacent_pair;
+mod ambiguous_pairs;
+mod coasted_tracks;
+mod image_chain;
+mod image_features;
+mod keyframe_pairs;
+mod output_order;
+mod refined_match;
+mod tracks;
+
+pub use ambiguous_pairs::settle_rivals;
+pub use image_chain::{Chain, link};
+pub use image_features::milliseconds;
+pub use keyframe_pairs::keyframe_rotations;
+pub use output_order::rotations_in_order;
+pub use tracks::Tracks;

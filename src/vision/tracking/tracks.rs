@@ -1,0 +1,144 @@
+//! Verified matches chain into tracks, each of one surface point.
+
+use super::coasted_tracks::{Loose, Passage, carried_loose};
+use super::refined_match::Link;
+use crate::vision::features::Feature;
+use crate::vision::matching::IndexMatch;
+use crate::vision::result::TrackObservation;
+use nalgebra::Vector2;
+
+/// 1σ of the first sight of a track, px: the point is whatever is there, so only later sights have errors.
+const FIRST_SIGMA_PX: f64 = 0.05;
+/// A track ends where its point and the corner that it is matched by have parted by this much, px.
+const PARTED_PX: f64 = 3.0;
+
+/// Where a track is in one picture.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TrackPoint {
+    pub(super) number: u64,
+    pub(super) pixel_px: Vector2<f64>,
+    /// 1σ of the drift off the point of the first sight, px.
+    pub(super) sigma_px: f64,
+    /// Links so far that no matched corner made.
+    pub(super) followed: u32,
+}
+
+/// A point in two pictures, with the 1σ of the second pixel given the first, px.
+pub(super) type SharedPoint = (Vector2<f64>, Vector2<f64>, f64);
+
+/// Tracks that grow picture by picture. What is kept of each picture is what is reported of it.
+pub struct Tracks {
+    /// Points of the last picture by feature; `None` for features that never matched.
+    here: Vec<Option<TrackPoint>>,
+    /// Points of the last picture that have no corner there.
+    loose: Vec<Loose>,
+    next: u64,
+    observations: Vec<TrackObservation>,
+    /// Of each observation, the links of its track so far that no matched corner made.
+    followed: Vec<u32>,
+    /// Where each picture's observations start.
+    starts: Vec<usize>,
+}
+
+impl Tracks {
+    /// No tracks yet; numbers start after the designated point's.
+    pub fn new() -> Self {
+        let next = TrackObservation::DESIGNATED + 1;
+        Tracks { here: Vec::new(), loose: Vec::new(), next, observations: vec![], followed: vec![], starts: vec![] }
+    }
+
+    /// Carries points from the last picture, taken at `t_ns`, to the next one along verified matches; new ones where none
+    /// was. Points that no match carries go by `passage`, where there is one.
+    pub(super) fn chain(
+        &mut self,
+        t_ns: i64,
+        (features, next): (&[Feature], &[Feature]),
+        matches: impl Iterator<Item = (IndexMatch, Option<Link>)>,
+        passage: Option<&Passage>,
+    ) {
+        self.here.resize(features.len(), None);
+        let mut there = vec![None; next.len()];
+        let mut lost = self.here.clone();
+        for (m, link) in matches {
+            let corner_px = features[m.from].pixel_px;
+            let start = self.here[m.from].unwrap_or_else(|| {
+                self.next += 1;
+                TrackPoint { number: self.next - 1, pixel_px: corner_px, sigma_px: FIRST_SIGMA_PX, followed: 0 }
+            });
+            self.here[m.from] = Some(start);
+            lost[m.from] = None;
+            let carried = carry(&start, &corner_px, (&next[m.to], link));
+            let parted = (carried.pixel_px - next[m.to].pixel_px).norm() > PARTED_PX;
+            there[m.to] = (!parted).then_some(carried);
+        }
+        let lost: Vec<Loose> = lost.iter().zip(features).filter_map(with_response).chain(self.loose.clone()).collect();
+        let loose = passage.map_or(Vec::new(), |passage| carried_loose(lost, passage, (next, &mut there)));
+        self.report(t_ns, features);
+        (self.here, self.loose) = (there, loose);
+    }
+
+    /// Reports the points of the last picture, in order of the number; [`Tracks::chain`] does so for all before it.
+    pub(super) fn report(&mut self, t_ns: i64, features: &[Feature]) {
+        self.starts.push(self.observations.len());
+        let cornered = self.here.iter().zip(features).filter_map(with_response);
+        let mut all: Vec<Loose> = cornered.chain(self.loose.iter().copied()).collect();
+        all.sort_unstable_by_key(|l| l.point.number);
+        self.followed.extend(all.iter().map(|l| l.point.followed));
+        self.observations.extend(all.iter().map(|l| TrackObservation {
+            t_ns,
+            track_id: l.point.number,
+            pixel_px: l.point.pixel_px,
+            sigma_px: l.point.sigma_px,
+            response: l.response,
+        }));
+    }
+
+    /// All observations of a picture, in order of the number.
+    pub(super) fn observations(&self, picture: usize) -> &[TrackObservation] {
+        let end = self.starts.get(picture + 1).copied().unwrap_or(self.observations.len());
+        &self.observations[self.starts[picture]..end]
+    }
+
+    /// Points seen in two pictures, in order of the number.
+    pub fn shared(&self, from: usize, to: usize) -> Vec<SharedPoint> {
+        self.shared_where(from, to, |_, _| true)
+    }
+
+    /// Points seen in two pictures, and carried all the way between them by matched corners. Those that their patches alone
+    /// carried err alike with their neighbours: more of them would make a rotation look surer than it is.
+    pub(super) fn shared_by_corners(&self, from: usize, to: usize) -> Vec<SharedPoint> {
+        self.shared_where(from, to, |a, b| a == b)
+    }
+
+    /// Points seen in two pictures whose links without a corner, counted up to either, are accepted.
+    fn shared_where(&self, from: usize, to: usize, accept: impl Fn(u32, u32) -> bool) -> Vec<SharedPoint> {
+        let (a, b) = (self.observations(from), self.observations(to));
+        let followed = |picture: usize, i: usize| self.followed[self.starts[picture] + i];
+        let partner = |(i, a): (usize, &TrackObservation)| {
+            let j = b.binary_search_by_key(&a.track_id, |o| o.track_id).ok()?;
+            let variance_px2 = b[j].sigma_px.powi(2) - a.sigma_px.powi(2);
+            let sigma_px = variance_px2.max(FIRST_SIGMA_PX.powi(2)).sqrt();
+            accept(followed(from, i), followed(to, j)).then_some((a.pixel_px, b[j].pixel_px, sigma_px))
+        };
+        a.iter().enumerate().filter_map(partner).collect()
+    }
+
+    /// Every picture's observations, in order of the picture.
+    pub fn into_observations(self) -> Vec<TrackObservation> {
+        self.observations
+    }
+}
+
+/// The point in the next picture: through the patch where there is a link, else as the corner moved.
+fn carry(start: &TrackPoint, corner_px: &Vector2<f64>, (next, link): (&Feature, Option<Link>)) -> TrackPoint {
+    let off = start.pixel_px - corner_px;
+    let (pixel_px, sigma_px, scale) = match link {
+        Some(l) => (l.to_px + l.linear * off, l.sigma_px, l.linear.determinant().abs().sqrt()),
+        None => (next.pixel_px + off, std::f64::consts::SQRT_2 * next.sigma_px, 1.0),
+    };
+    TrackPoint { pixel_px, sigma_px: (scale * start.sigma_px).hypot(sigma_px), ..*start }
+}
+
+fn with_response((point, feature): (&Option<TrackPoint>, &Feature)) -> Option<Loose> {
+    point.map(|point| Loose { point, response: feature.response })
+}
