@@ -6,9 +6,10 @@ use image::GrayImage;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
 use opnav::dataset::{GroundMap, MapLevel};
 use opnav::geometry::{Camera, so3};
+use opnav::observations::PredictedCamera;
 use opnav::render::{Detector, Gpu, Renderer, World, map_level};
 use opnav::scene::{RenderConfig, SensorConfig, SunConfig, SurveyLevel, Terrain, TerrainConfig, View};
-use opnav::vision::{MapFix, MapMatchConfig, MapMatcher, MapStatus, PredictedCamera};
+use opnav::vision::{MapFix, MapMatchConfig, MapMatcher, MapStatus};
 use std::path::Path;
 use std::sync::LazyLock;
 

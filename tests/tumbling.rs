@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Quaternion, SMatrix, SVector, UnitQuaternion, Vector3};
 use opnav::dataset::read_timed_table;
 use opnav::geometry::{Manifold, central_difference, so3};
 use opnav::navigation::tumbling::*;
+use opnav::observations::{PairStatus, RelativeRotation, RotationModel};
 use opnav::stats::{ConsistencyBounds, normalized_error_squared, random_stream};
-use opnav::vision::{PairStatus, RelativeRotation, RotationModel};
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 

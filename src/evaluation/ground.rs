@@ -3,7 +3,7 @@
 use super::error::EvaluationError;
 use super::named_table::NamedTable;
 use super::true_camera::TrueCamera;
-use crate::vision::TrackObservation;
+use crate::observations::TrackObservation;
 use nalgebra::{Vector2, Vector3};
 use std::path::Path;
 

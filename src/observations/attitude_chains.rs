@@ -1,7 +1,7 @@
 //! Attitudes chained from the rotations between pictures.
 
+use super::rotation::{PairStatus, RelativeRotation};
 use crate::dataset::StampedPose;
-use crate::vision::{PairStatus, RelativeRotation};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use std::collections::BTreeMap;
 

@@ -1,8 +1,8 @@
 //! `relative_rotations.csv`: the rotation of every image pair, with its outcome.
 
+use super::rotation::{PairStatus, RelativeRotation, RotationModel};
 use super::text_table::{Row, read_rows};
 use crate::dataset::{DatasetError, write_atomically};
-use crate::vision::{PairStatus, RelativeRotation, RotationModel};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use std::path::Path;
 

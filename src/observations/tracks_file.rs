@@ -1,8 +1,8 @@
 //! `tracks.csv`: where every track was seen.
 
 use super::text_table::{Row, read_rows};
+use super::track::TrackObservation;
 use crate::dataset::{DatasetError, write_atomically};
-use crate::vision::TrackObservation;
 use nalgebra::Vector2;
 use std::path::Path;
 

@@ -2,9 +2,9 @@
 
 use super::error::PipelineError;
 use crate::dataset::{DatasetError, ImageSequence, StampedPose, write_atomically, write_tum};
-use crate::observations::{attitude_chains, write_relative_rotations, write_tracks};
+use crate::observations::{TrackObservation, attitude_chains, write_relative_rotations, write_tracks};
 use crate::report::{contact_sheet, draw_tracks};
-use crate::vision::{FrontEnd, TrackObservation};
+use crate::vision::FrontEnd;
 use image::{RgbImage, imageops};
 use rayon::prelude::*;
 use serde::Serialize;

@@ -19,7 +19,6 @@ mod synthesize;
 mod track;
 mod tumble;
 
-pub use super::campaign::{CampaignOptions, FieldOfView};
 pub use crate::dataset::{CameraSource, FrameTimes};
 pub use crate::navigation::landing::{BiasPrior, FilterKind, ImageRotationUse, LandingConfig, LandmarkStart};
 pub use crate::navigation::landmark::Selector;

@@ -2,7 +2,8 @@
 
 use super::error::PipelineError;
 use crate::dataset::{Frame, write_text};
-use crate::vision::{FrameReport, FrameStatus};
+use crate::observations::FrameStatus;
+use crate::vision::FrameReport;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -22,12 +22,14 @@ mod shading;
 mod stars;
 mod surface;
 mod terrain;
+mod world;
 
 pub use crate::scene::RenderConfig;
 pub use error::RenderError;
 pub use frame::RenderedFrame;
 pub use gpu::{AdapterReport, Gpu, StageTime, list_adapters};
 pub use orthoimage::map_level;
-pub use renderer::{Renderer, World};
+pub use renderer::Renderer;
 pub use sensor::Detector;
 pub use stars::add_stars;
+pub use world::World;

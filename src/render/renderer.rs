@@ -7,17 +7,9 @@ use super::gpu::{Gpu, Role, SampleTarget, StageTime, submit_timed};
 use super::optics::Lens;
 use super::shading::{ShadingJob, ShadingPass, ShadowMap};
 use super::surface::Surface;
+use super::world::World;
 use crate::geometry::Camera;
-use crate::scene::{SmallBody, Terrain, View};
-
-/// What pictures are taken of.
-#[derive(Debug, Clone, Copy)]
-pub enum World<'a> {
-    /// Terrain; the views' reference frame is the site.
-    Terrain(&'a Terrain),
-    /// A small body; the views' reference frame is the asteroid.
-    Body(&'a SmallBody),
-}
+use crate::scene::View;
 
 /// Renders pictures of one world by one camera.
 #[derive(Debug)]

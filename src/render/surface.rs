@@ -5,12 +5,12 @@ use super::body::BodyGeometry;
 use super::error::RenderError;
 use super::gpu::{Geometry, Gpu, Role, Shading, columns, dropped, four};
 use super::optics::Lens;
-use super::renderer::World;
 use super::shading::{
     ShadingJob, ShadingKind, ShadowBox, ShadowMap, octave_table, photometry_data, photometry_model, shadow_axes,
     texture_from_clip,
 };
 use super::terrain::{LevelRange, SeenGround, ShadedWavelengths, TerrainGeometry};
+use super::world::World;
 use crate::geometry::Camera;
 use crate::scene::{BodySurface, NoiseOctave, OctaveStrength, Photometry, View};
 use nalgebra::{Matrix4, Vector3};

@@ -1,6 +1,6 @@
 //! Pictures to look at: tracks drawn over a frame, and contact sheets.
 
-use crate::vision::TrackObservation;
+use crate::observations::TrackObservation;
 use image::{GrayImage, Rgb, RgbImage, imageops};
 use imageproc::drawing::{draw_antialiased_line_segment_mut, draw_hollow_circle_mut, draw_line_segment_mut};
 use imageproc::pixelops::interpolate;

@@ -42,7 +42,8 @@ pub use elevation::{
     OrthoimageConfig, Raster, RasterFile, RasterGeometry, RawLayout, SampleKind,
 };
 pub use error::SceneError;
-pub use ideal::{DepthPicture, SensedMotion, ideal_samples, observe_landmarks, optical_flow};
+pub use ideal::optical_flow;
+pub use ideal::{DepthPicture, SensedMotion, ideal_samples, observe_landmarks};
 pub use light::{EphemerisConfig, SunInIcrf, Sunlight, sun_angular_radius_rad};
 pub use noise::{
     NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseOctave, NoiseSample,

@@ -1,7 +1,10 @@
 //! Parameters of the front end.
 
 use super::error::VisionError;
+use super::features::DetectorConfig;
 use super::matching::{MatcherConfig, PATCH_CURE, PATCH_RANGE_PX};
+use super::pair::{FixedCenterConfig, RotationConfig};
+use super::patch::KltConfig;
 use serde::{Deserialize, Serialize};
 
 /// How the rotation between two pictures is found.
@@ -13,159 +16,6 @@ pub enum FrontEndMode {
     Auto,
     /// A body that turns about a centre at a fixed place in the camera's frame.
     FixedCenter,
-}
-
-/// Harris detection.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct DetectorConfig {
-    /// Most features a picture (default 1000).
-    pub max_features: usize,
-    /// Gaussian smoothing before detection, 1σ in px (default 1.0).
-    pub smoothing_sigma_px: f64,
-    /// Gaussian smoothing of the response, 1σ in px (default 0.8).
-    pub response_sigma_px: f64,
-    /// Side of the window that gathers the structure tensor, px (default 5).
-    pub block_px: u32,
-    /// Harris' trace factor k (default 0.04).
-    pub harris_k: f64,
-    /// Least response as a fraction of the strongest (default 1e-5); noise is refused by `max_sigma_px`.
-    pub min_response_ratio: f64,
-    /// Least distance between features, px (default 5).
-    pub min_distance_px: f64,
-    /// Features closer to the picture's edge are dropped, px (default 16).
-    pub border_px: u32,
-    /// Peaks of the response with a greater width are too blunt to be found again at the same place, px (default 2.2).
-    pub max_peak_width_px: f64,
-    /// Features with a greater predicted 1σ are dropped, px (default 0.4).
-    pub max_sigma_px: f64,
-}
-
-impl Default for DetectorConfig {
-    fn default() -> Self {
-        DetectorConfig {
-            max_features: 1000,
-            smoothing_sigma_px: 1.0,
-            response_sigma_px: 0.8,
-            block_px: 5,
-            harris_k: 0.04,
-            min_response_ratio: 1e-5,
-            min_distance_px: 5.0,
-            border_px: 16,
-            max_peak_width_px: 2.2,
-            max_sigma_px: 0.4,
-        }
-    }
-}
-
-/// Following of patches.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct KltConfig {
-    /// Half the patch's side, px (default 10: 21 px a side).
-    pub half_px: u32,
-    /// Sizes of the picture that are searched, each half as large as the one before (default 3).
-    pub levels: u32,
-    /// Most steps on each size (default 20).
-    pub max_iterations: u32,
-    /// Greatest way from where a size's search begins, in px of that size (default 4).
-    pub max_off_px: f64,
-    /// Patches that are less alike do not match (default 0.8).
-    pub min_correlation: f64,
-    /// A point followed there and back must end this near to where it began, px (default 0.5).
-    pub max_return_px: f64,
-    /// Whether points whose corners are not found again are followed by their patches (default true); about a fixed centre
-    /// they are not.
-    pub follow_lost: bool,
-}
-
-impl Default for KltConfig {
-    fn default() -> Self {
-        KltConfig {
-            half_px: 10,
-            levels: 3,
-            max_iterations: 20,
-            max_off_px: 4.0,
-            min_correlation: 0.8,
-            max_return_px: 0.5,
-            follow_lost: true,
-        }
-    }
-}
-
-/// Rotation between two pictures.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct RotationConfig {
-    /// Inlier threshold of the first robust estimate, px (default 1.5).
-    pub threshold_px: f64,
-    /// Nominal 1σ of a pixel where none is given, px (default 0.3). The fit estimates its own scale from it.
-    pub sigma_px: f64,
-    /// Fewest matches to try, and fewest inliers to accept (default 20).
-    pub min_matches: usize,
-    /// Least fraction of the matches that must agree (default 0.3).
-    pub min_inlier_ratio: f64,
-    /// Greatest 1σ of the rotation about any axis that is still a determined rotation, rad (default 0.02).
-    pub max_sigma_rad: f64,
-    /// Greatest rotation between two pictures, rad (default 1.0); the twisted solution lies near π.
-    pub max_angle_rad: f64,
-    /// 1σ of a predicted rotation, rad (default 0.005).
-    pub prior_sigma_rad: f64,
-    /// Variance of errors that vary smoothly over the picture, as a share of the noise's (default 0.0007). It grows with
-    /// the square of the translation over the distance: the looks of ground change with the view. 0 where pixels err by
-    /// white noise alone, as simulated ones do.
-    pub smooth_error_share: f64,
-    /// Seed of the random samples (default 1).
-    pub seed: u64,
-}
-
-impl Default for RotationConfig {
-    fn default() -> Self {
-        RotationConfig {
-            threshold_px: 1.5,
-            sigma_px: 0.3,
-            min_matches: 20,
-            min_inlier_ratio: 0.3,
-            max_sigma_rad: 0.02,
-            max_angle_rad: 1.0,
-            prior_sigma_rad: 0.005,
-            smooth_error_share: 0.0007,
-            seed: 1,
-        }
-    }
-}
-
-/// The fixed-centre model.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct FixedCenterConfig {
-    /// 1σ of the first guess of the centre's direction (the centroid of the bright silhouette), rad (default 0.05).
-    pub center_sigma_rad: f64,
-    /// Width of the band along the limb and the terminator where no feature is taken, px (default 8).
-    pub limb_margin_px: u32,
-    /// A rate this far from the running median is suspect, rad/s (default 1°/s)…
-    pub rate_gate_rad_s: f64,
-    /// …or this fraction of the median, whichever is greater (default 0.2).
-    pub rate_gate_ratio: f64,
-    /// Variance of errors that vary smoothly over the picture, as a share of the noise's (default 0.0018): the light moves
-    /// over a body that turns.
-    pub smooth_error_share: f64,
-    /// Whether a patch's stretch from picture to picture is refined by its own grey levels (default true): a body's surface
-    /// turns away within a few matches, and patches that are askew err alike.
-    pub stretch_patches: bool,
-}
-
-impl Default for FixedCenterConfig {
-    fn default() -> Self {
-        FixedCenterConfig {
-            center_sigma_rad: 0.05,
-            limb_margin_px: 8,
-            rate_gate_rad_s: 1f64.to_radians(),
-            rate_gate_ratio: 0.2,
-            smooth_error_share: 0.0018,
-            stretch_patches: true,
-        }
-    }
 }
 
 /// The whole front end.

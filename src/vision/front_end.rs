@@ -1,7 +1,7 @@
 //! What the front end takes and gives.
 
-use super::result::{FrameStatus, RelativeRotation, TrackObservation};
 use crate::dataset::{DatasetError, DesignatedPoint, Frame};
+use crate::observations::{FrameStatus, RelativeRotation, TrackObservation};
 use image::GrayImage;
 use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector2, Vector3};
 use std::ops::Range;

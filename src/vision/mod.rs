@@ -61,25 +61,25 @@ mod matching;
 mod opencv_bridge;
 mod pair;
 mod patch;
-mod result;
 mod sequence;
 mod tracking;
 
-pub use config::{DetectorConfig, FixedCenterConfig, FrontEndConfig, FrontEndMode, KltConfig, RotationConfig};
+pub use config::{FrontEndConfig, FrontEndMode};
+pub use designated::drift_a_picture_px;
 pub use error::VisionError;
-pub use features::{Feature, detect_harris, noise_sigma_dn};
+pub use features::{DetectorConfig, Feature, detect_harris, noise_sigma_dn};
 pub use front_end::{DesignatedStep, FrameReport, FrontEnd, RotationPrediction, TrackInputs};
-pub use map::{MapFix, MapMatchConfig, MapMatcher, MapSighting, MapStatus, PredictedCamera};
+pub use map::{MapFix, MapMatchConfig, MapMatcher, MapSighting, MapStatus};
 pub use masks::{bright_centroid_px, inside_silhouette};
 pub use matching::{
     Described, Descriptor, DescriptorKind, IndexMatch, MatchLimits, MatcherConfig, OrbDescriptor, Orientation,
     SiftConfig, SiftDescriptor, describe_orb, describe_sift, match_features, match_features_guided,
 };
 pub use opencv_bridge::opencv_version;
+pub use pair::relative_rotation;
 pub use pair::{
-    CenterProblem, CenterSolution, CenteredPair, PairHints, PairSolution, PixelMatches, relative_rotation,
-    rotations_about_center,
+    CenterProblem, CenterSolution, CenteredPair, FixedCenterConfig, MatchedPair, PairHints, PairSolution, PixelMatches,
+    RotationConfig, rotations_about_center,
 };
-pub use patch::{KltPoint, track_patches};
-pub use result::{FrameStatus, MatchedPair, PairStatus, RelativeRotation, RotationModel, TrackObservation};
+pub use patch::{KltConfig, KltPoint, track_patches};
 pub use sequence::track_sequence;

@@ -3,23 +3,16 @@
 use super::config::{FrontEndConfig, FrontEndMode};
 use super::designated::carry_designated;
 use super::error::VisionError;
-use super::front_end::{DesignatedStep, FrontEnd, RotationPrediction, TrackInputs};
+use super::front_end::{DesignatedStep, FrontEnd, TrackInputs};
 use super::masks::KeepOut;
 use super::pair::{CenterProblem, CenteredPair, PairSolution, rotations_about_center};
-use super::result::{PairStatus, TrackObservation};
-use super::tracking::{Chain, Tracks, keyframe_rotations, link, milliseconds, rotations_in_order, settle_rivals};
+use super::tracking::{
+    Center, Chain, Job, Tracks, keyframe_rotations, link, milliseconds, rotations_in_order, settle_rivals,
+};
 use crate::dataset::{Frame, ImageSequence};
-use crate::geometry::Camera;
-use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector2, Vector3};
+use crate::observations::{PairStatus, TrackObservation};
+use nalgebra::{Vector2, Vector3};
 use std::time::Instant;
-
-/// The fixed part of the work.
-pub(super) struct Job<'a> {
-    pub(super) sequence: &'a ImageSequence,
-    pub(super) config: &'a FrontEndConfig,
-    pub(super) prior: Option<RotationPrediction<'a>>,
-    pub(super) keep_out: Option<KeepOut<'a>>,
-}
 
 /// Wall times of stages, one after the other.
 struct Laps {
@@ -35,19 +28,6 @@ impl Laps {
     fn end(&mut self, stage: &'static str) {
         self.times_ms.push((stage, milliseconds(self.since)));
         self.since = Instant::now();
-    }
-}
-
-/// The centre of rotation with its covariance, in the fixed-centre mode.
-pub(super) type Center = Option<(Unit<Vector3<f64>>, Matrix2<f64>)>;
-
-impl Job<'_> {
-    pub(super) fn camera(&self) -> &Camera {
-        &self.sequence.sensor.camera
-    }
-
-    pub(super) fn predicted(&self, t_ns_from: i64, t_ns_to: i64) -> Option<UnitQuaternion<f64>> {
-        self.prior.and_then(|prior| prior(t_ns_from, t_ns_to))
     }
 }
 

@@ -7,8 +7,8 @@ use opnav::dataset::{ImuNoise, ImuSample};
 use opnav::geometry::Camera;
 use opnav::geometry::so3::{left_jacobian, log};
 use opnav::navigation::landing::LandingInput;
+use opnav::observations::TrackObservation;
 use opnav::stats::random_stream;
-use opnav::vision::TrackObservation;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 

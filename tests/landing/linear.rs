@@ -10,7 +10,7 @@ use opnav::navigation::landing::{
     BearingObservation, CameraMount, Core, CorrectionModel, DescentEstimate, DescentState, FilterKind, ImuBiases,
     ImuIncrement, ImuRecord, UnknownLandmark, innovation, predict,
 };
-use opnav::vision::TrackObservation;
+use opnav::observations::TrackObservation;
 
 pub const KINDS: [FilterKind; 2] = [FilterKind::Hybrid, FilterKind::Standard];
 const CAMERA_IN_LANDER_M: Vector3<f64> = Vector3::new(1.0, -2.0, 0.5);

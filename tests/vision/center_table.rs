@@ -5,7 +5,8 @@ use super::tumbling::{Sequence, sequence_seen_by, solve, solve_held};
 use crate::bar::{Bar, check_table};
 use nalgebra::{Matrix3, Vector3};
 use opnav::geometry::Camera;
-use opnav::vision::{CenterSolution, PairStatus};
+use opnav::observations::PairStatus;
+use opnav::vision::CenterSolution;
 
 const STEPS_DEG: [f64; 4] = [1.0, 3.0, 6.0, 12.0];
 const PAIRS: usize = 10;

@@ -11,8 +11,8 @@ use crate::navigation::landing::{
     BearingObservation, CameraMount, FrameInput, ImuIncrement, InitializationModel, KnownPoint, Navigator, step,
     viewpoint, with_landmark, without_landmark,
 };
+use crate::observations::TrackObservation;
 use crate::stats::{normalized_error_squared, random_stream};
-use crate::vision::TrackObservation;
 use nalgebra::{SVector, Unit, UnitQuaternion, Vector3};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;

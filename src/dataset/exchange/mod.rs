@@ -4,4 +4,4 @@ mod colmap;
 mod tum;
 
 pub use colmap::{ColmapImage, ColmapModel, ColmapPoint, read_colmap, write_colmap};
-pub use tum::{StampedPose, read_tum, seconds_to_ns, write_tum};
+pub use tum::{StampedPose, read_tum, write_tum};

@@ -1,7 +1,7 @@
 //! Trajectories in the TUM format: `t x y z qx qy qz qw`, time in seconds.
 
 use crate::dataset::error::DatasetError;
-use crate::dataset::storage::{parse_finite, read_text, write_atomically};
+use crate::dataset::storage::{parse_finite, read_text, seconds_to_ns, write_atomically};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use std::path::Path;
 
@@ -69,19 +69,4 @@ pub fn read_tum(path: &Path) -> Result<Vec<StampedPose>, DatasetError> {
         return Err(DatasetError::Unusable { path: path.into(), problem: "it has no poses".into() });
     }
     Ok(poses)
-}
-
-/// Seconds as text to whole nanoseconds, digit by digit, so that nothing is lost to floating point.
-pub fn seconds_to_ns(text: &str) -> Option<i64> {
-    let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
-    let plain = fraction.bytes().all(|b| b.is_ascii_digit()) && whole.parse::<i64>().is_ok();
-    if !plain {
-        let ns = text.parse::<f64>().ok()? * 1e9;
-        return (ns.abs() < i64::MAX as f64).then(|| ns.round() as i64);
-    }
-    let digits: String = fraction.chars().chain(std::iter::repeat('0')).take(9).collect();
-    let ns: i64 = digits.parse().ok()?;
-    let seconds: i64 = whole.parse().ok()?;
-    let sign = if whole.starts_with('-') { -1 } else { 1 };
-    seconds.checked_mul(1_000_000_000)?.checked_add(sign * ns)
 }

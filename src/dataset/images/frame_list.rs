@@ -1,10 +1,9 @@
 //! Which pictures a folder holds, in which order, and when they were taken.
 
+use super::frame::Frame;
 use super::image_file::EXTENSIONS;
-use super::sequence::Frame;
 use crate::dataset::error::DatasetError;
-use crate::dataset::exchange::seconds_to_ns;
-use crate::dataset::storage::read_text;
+use crate::dataset::storage::{read_text, seconds_to_ns};
 use std::path::{Path, PathBuf};
 
 /// Where the time stamps of pictures come from.

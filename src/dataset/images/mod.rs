@@ -1,5 +1,6 @@
 //! Pictures and their lists: image sequences, image files, intensity scaling, rasters, the camera that took them.
 
+mod frame;
 mod frame_list;
 mod grey_levels;
 mod image;
@@ -8,6 +9,7 @@ mod raster;
 mod sensor;
 mod sequence;
 
+pub use frame::Frame;
 pub use frame_list::FrameTimes;
 pub use grey_levels::GreyLevels;
 pub use image::GreyPicture;
@@ -17,4 +19,4 @@ pub use raster::{
     write_depth_tiff, write_grey_png,
 };
 pub use sensor::{CameraSensor, read_camera_sensor, write_camera_sensor};
-pub use sequence::{CameraSource, Frame, ImageSequence};
+pub use sequence::{CameraSource, ImageSequence};

@@ -1,5 +1,6 @@
 //! Image sequences: our data sets, EuRoC folders, and plain folders of pictures.
 
+use super::frame::Frame;
 use super::frame_list::{FrameList, FrameTimes};
 use super::grey_levels::{GreyLevels, NumberSample};
 use super::image_file::{Header, Numbers, read_header, read_numbers};
@@ -20,17 +21,6 @@ pub enum CameraSource {
     File(PathBuf),
     /// A centred pinhole camera of this horizontal field of view in radians.
     HorizontalFov(f64),
-}
-
-/// One picture of a sequence.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Frame {
-    /// Position in the sequence, from 0.
-    pub index: usize,
-    /// Time in ns.
-    pub t_ns: i64,
-    /// The picture's file.
-    pub path: PathBuf,
 }
 
 /// A sequence of pictures of one camera.

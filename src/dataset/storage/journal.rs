@@ -3,24 +3,12 @@
 //! Each line stands for one finished file. A line is written after its file has got its final name, in one piece; what a
 //! killed job left of the last line is passed over. The manifest takes the journal's place when the data set is complete.
 
+use super::checksums::{Checksums, JOURNAL};
 use super::manifest::{Manifest, read_manifest};
 use crate::dataset::error::DatasetError;
-use sha2::{Digest, Sha256};
-use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-
-/// Name of the journal under a data set's root.
-pub(super) const JOURNAL: &str = "unfinished.txt";
-
-/// SHA-256 of file contents, by path relative to the data set's root.
-pub type Checksums = BTreeMap<String, String>;
-
-/// SHA-256 of some bytes as hexadecimal digits.
-pub fn sha256_hex(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
-}
 
 /// The growing list of finished files.
 #[derive(Debug)]

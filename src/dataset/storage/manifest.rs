@@ -1,7 +1,7 @@
 //! The manifest: what a data set holds, written last.
 
 use super::atomic::write_text;
-use super::journal::{Checksums, JOURNAL, sha256_hex};
+use super::checksums::{Checksums, JOURNAL, sha256_hex};
 use crate::dataset::camera_id::CameraId;
 use crate::dataset::error::DatasetError;
 use serde::{Deserialize, Serialize};

@@ -1,23 +1,12 @@
 //! Options of the landing navigation.
 
 use super::error::LandingError;
+use super::error_state::FilterKind;
 use super::inertial::Planet;
-use super::propagation::ImageRotationUse;
 use crate::navigation::filter::Gate;
 use crate::navigation::landmark::{GroundPrior, Selector};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
-
-/// Coordinates of the error state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum FilterKind {
-    /// Position, velocity and landmarks in lander axes, attitude in site axes: consistent.
-    #[default]
-    Hybrid,
-    /// Position, velocity and landmarks in site axes, attitude in lander axes: the paper's, overconfident in yaw.
-    Standard,
-}
 
 /// How an unknown landmark gets its first place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -182,4 +171,17 @@ impl LandingConfig {
         }
         Ok(())
     }
+}
+
+/// What is done with the rotations that images tell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ImageRotationUse {
+    /// They are compared with the gyroscope's; the estimate does not depend on them.
+    #[default]
+    Check,
+    /// They correct the gyroscope's, or its bias where biases are estimated.
+    Measure,
+    /// Nothing.
+    Ignore,
 }

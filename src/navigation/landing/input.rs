@@ -1,12 +1,12 @@
 //! What a descent brings, from the image front end and the sensors.
 
-use super::bearings::CameraMount;
+use super::bearings::{CameraMount, KnownSighting};
 use super::error::LandingError;
 use super::propagation::ImageRotation;
 use crate::dataset::{ImuNoise, ImuSample, InitialState};
 use crate::geometry::Camera;
-use crate::vision::TrackObservation;
-use nalgebra::{Isometry3, Vector2, Vector3};
+use crate::observations::TrackObservation;
+use nalgebra::Isometry3;
 
 /// Everything that [`navigate`](super::navigate) may see.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,21 +29,6 @@ pub struct LandingInput {
     pub known: Vec<KnownSighting>,
     /// Rotations between images, by the time of the second, in order of time; none if the images tell none.
     pub rotations: Vec<ImageRotation>,
-}
-
-/// A point of known place, seen in an image.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct KnownSighting {
-    /// Time of the image, ns.
-    pub t_ns: i64,
-    /// Pixel (u, v).
-    pub pixel_px: Vector2<f64>,
-    /// 1σ of each pixel coordinate, px.
-    pub sigma_px: f64,
-    /// The point in the site frame, m.
-    pub point_in_site_m: Vector3<f64>,
-    /// 1σ of each of its coordinates, m.
-    pub sigma_point_m: f64,
 }
 
 impl LandingInput {

@@ -13,29 +13,35 @@ mod files;
 mod inertial;
 mod input;
 mod landmarks;
+mod map_aiding;
 mod navigate;
 mod propagation;
 mod result;
 mod step;
 
 pub use bearings::{
-    BearingInnovation, BearingObservation, CameraMount, Contradiction, Corrected, CorrectionModel, KnownPoint, Outcome,
-    Outcomes, correct, innovation,
+    BearingInnovation, BearingObservation, CameraMount, Contradiction, Corrected, CorrectionModel, KnownPoint,
+    KnownSighting, Outcome, Outcomes,
 };
-pub use config::{BiasPrior, FilterKind, LandingConfig, LandmarkStart};
+pub use bearings::{correct, innovation};
+pub use config::{BiasPrior, ImageRotationUse, LandingConfig, LandmarkStart};
 pub use error::LandingError;
 pub use error_state::{
-    DescentEstimate, DescentState, ImuBiases, LandmarkRole, LandmarkTransition, RayPoint, RelativeJacobian, Transition,
-    UnknownLandmark,
+    Core, DescentEstimate, DescentState, FilterKind, LandmarkRole, LandmarkTransition, RayPoint, RelativeJacobian,
+    Transition, UnknownLandmark,
 };
 pub use files::{write_covariance_csv, write_estimate_csv};
-pub use inertial::{GAP_FORCE_SIGMA_M_S2, GAP_RATE_SIGMA_RAD_S, ImuIncrement, ImuRecord, LONGEST_GAP_S, Planet};
-pub use input::{KnownSighting, LandingInput};
+pub use inertial::{
+    GAP_FORCE_SIGMA_M_S2, GAP_RATE_SIGMA_RAD_S, ImuBiases, ImuIncrement, ImuRecord, LONGEST_GAP_S, Planet,
+};
+pub use input::LandingInput;
 pub use landmarks::{
     InitializationModel, LookAhead, initial_estimate, survives, triangulated, viewpoint, with_landmark,
     with_landmark_at_height, with_ray, without_landmark,
 };
+pub use map_aiding::{PointByMap, SightedByMap, sighted_by_map};
 pub use navigate::navigate;
-pub use propagation::{Core, ImageRotation, ImageRotationUse, RotationCheck, predict};
+pub use propagation::predict;
+pub use propagation::{ImageRotation, RotationCheck, image_rotations};
 pub use result::{ImuGap, LandingEpoch, LandingResult};
 pub use step::{FrameInput, Navigator, StepReport, step};

@@ -8,7 +8,7 @@ use super::input::LandingInput;
 use super::propagation::predict;
 use super::result::{ImuGap, LandingEpoch, LandingResult};
 use super::step::{FrameInput, Navigator, StepReport, step};
-use crate::vision::TrackObservation;
+use crate::observations::TrackObservation;
 
 /// Spacing of the epochs after the last frame, ns.
 const COAST_STEP_NS: i64 = 1_000_000_000;

@@ -1,7 +1,7 @@
 //! What the navigation of a descent gives back.
 
 use super::bearings::Contradiction;
-use super::error_state::ImuBiases;
+use super::inertial::ImuBiases;
 use super::propagation::RotationCheck;
 use nalgebra::{Isometry3, SMatrix, Vector3};
 

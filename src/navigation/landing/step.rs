@@ -1,13 +1,13 @@
 //! One image of the descent.
 
 use super::bearings::{BearingObservation, CameraMount, Contradiction, CorrectionModel, Outcomes, correct};
-use super::config::LandingConfig;
-use super::error_state::{DescentEstimate, ImuBiases};
-use super::inertial::ImuIncrement;
+use super::config::{ImageRotationUse, LandingConfig};
+use super::error_state::DescentEstimate;
+use super::inertial::{ImuBiases, ImuIncrement};
 use super::landmarks::{
     Selection, initial_estimate, with_chosen, with_designated_errors, with_triangulated, without_lost,
 };
-use super::propagation::{ImageRotation, ImageRotationUse, RotationCheck, predict};
+use super::propagation::{ImageRotation, RotationCheck, predict};
 use crate::dataset::InitialState;
 use std::collections::BTreeSet;
 

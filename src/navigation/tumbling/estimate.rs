@@ -4,9 +4,9 @@ use super::config::{Estimator, TumblingConfig};
 use super::error::TumblingError;
 use super::filters::{PaperFilter, chained_attitudes, filter_after_first_arc};
 use super::pair::{RotationPair, usable_pairs};
-use super::result::{InertiaKnowledge, PairCount, TumblingEpoch, TumblingResult};
-use super::shooting::{ShootingFit, shoot};
-use crate::vision::RelativeRotation;
+use super::result::{PairCount, TumblingResult};
+use super::shooting::{ShootingFit, seconds, shoot, shooting_epochs};
+use crate::observations::RelativeRotation;
 use nalgebra::SMatrix;
 
 /// Attitude, rate and inertia ratios at each picture of `frame_times_ns`, from the rotations with status ok between them.
@@ -32,27 +32,6 @@ pub fn estimate(
         Estimator::Realtime => filter_after_first_arc(&pairs, frame_times_ns, config),
         Estimator::Paper => filter_as_the_paper(&pairs, frame_times_ns, config),
     }
-}
-
-/// Times since the first picture in s.
-pub(super) fn seconds(frame_times_ns: &[i64]) -> Vec<f64> {
-    frame_times_ns.iter().map(|t| (t - frame_times_ns[0]) as f64 * 1e-9).collect()
-}
-
-/// Epochs of a shooting fit; the covariance follows the motion through the sensitivities.
-pub(super) fn shooting_epochs(shot: &ShootingFit, frame_times_ns: &[i64]) -> Vec<TumblingEpoch> {
-    let ratio_covariance = shot.covariance.fixed_view::<5, 5>(3, 3).into_owned();
-    let inertia = InertiaKnowledge::new(&shot.fit.inertia, &ratio_covariance, &shot.undetermined);
-    let points = shot.fit.points.iter().zip(frame_times_ns);
-    points
-        .map(|(point, &t_ns)| TumblingEpoch {
-            t_ns,
-            asteroid_from_inertial: point.state.asteroid_from_inertial,
-            rate_in_asteroid_rad_s: point.state.rate_in_asteroid_rad_s,
-            covariance: symmetric(&(point.sensitivity * shot.covariance * point.sensitivity.transpose())),
-            inertia: inertia.clone(),
-        })
-        .collect()
 }
 
 fn shooting_result(shot: ShootingFit, frame_times_ns: &[i64], given: usize) -> TumblingResult {

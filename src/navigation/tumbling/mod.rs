@@ -21,7 +21,8 @@ mod pair;
 mod result;
 mod shooting;
 
-pub use bounds::{ArcBound, ArcDesign, UndeterminedDirection, arc_bound, lie_derivatives, planned_pairs};
+pub use bounds::{ArcBound, ArcDesign, UndeterminedDirection, planned_pairs};
+pub use bounds::{arc_bound, lie_derivatives};
 pub use config::{Estimator, PaperConfig, PaperIntegration, TumblingConfig};
 pub use error::TumblingError;
 pub use estimate::estimate;

@@ -3,7 +3,7 @@
 use super::error::TumblingError;
 use super::motion::TrajectoryPoint;
 use crate::geometry::so3::log;
-use crate::vision::{PairStatus, RelativeRotation};
+use crate::observations::{PairStatus, RelativeRotation};
 use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
 
 /// Fewest usable pairs: two more than the eight unknowns ask for.

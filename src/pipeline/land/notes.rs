@@ -1,6 +1,6 @@
 //! What a landing's summary says in words.
 
-use super::map_sightings::PointByMap;
+use crate::navigation::landing::PointByMap;
 use crate::navigation::landing::{LandingConfig, LandingResult};
 
 /// Everything about a navigated descent that its numbers do not say.

@@ -6,7 +6,7 @@ use crate::dataset::{
     CameraSource, ImageSequence, StampedPose, read_designated, read_ground_map, read_imu, read_initial_state, write_tum,
 };
 use crate::navigation::landing::{
-    ImageRotation, ImuBiases, ImuRecord, LandingConfig, LandingEpoch, LandingInput, LandingResult, navigate,
+    ImuBiases, ImuRecord, LandingConfig, LandingEpoch, LandingInput, LandingResult, image_rotations, navigate,
     write_covariance_csv, write_estimate_csv,
 };
 use crate::pipeline::error::PipelineError;
@@ -14,8 +14,7 @@ use crate::pipeline::front_end_files::{write_front_end, write_pictures};
 use crate::pipeline::progress::Progress;
 use crate::pipeline::summary::Summary;
 use crate::pipeline::track::run_front_end;
-use crate::vision::{DesignatedStep, FrontEnd, FrontEndConfig, PairStatus, RelativeRotation, TrackInputs};
-use nalgebra::Isometry3;
+use crate::vision::{FrontEnd, FrontEndConfig, TrackInputs, drift_a_picture_px};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -67,16 +66,17 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
         mask: None,
     };
     let front_end = run_front_end(&sequence, &front_end_config, &inputs, (progress, &mut summary))?;
+    let frame_times_ns: Vec<i64> = front_end.frames.iter().map(|f| f.t_ns).collect();
     let mut input = LandingInput {
         imu: imu.clone(),
         imu_noise,
         camera: sequence.sensor.camera,
         lander_from_camera,
         observations: front_end.observations.clone(),
-        frame_times_ns: front_end.frames.iter().map(|f| f.t_ns).collect(),
         initial,
         known: Vec::new(),
-        rotations: image_rotations(&front_end, &lander_from_camera),
+        rotations: image_rotations(&front_end.rotations, &frame_times_ns, &lander_from_camera),
+        frame_times_ns,
     };
     if let Some(map) = &map {
         let designated = front_end.designated.as_slice();
@@ -116,36 +116,6 @@ fn with_designated_errors(config: &LandingConfig, front_end: &FrontEnd) -> Landi
         designated_drift_px: drift_a_picture_px(steps),
         ..config.clone()
     }
-}
-
-/// 1σ in px of independent steps, one a picture, that would lead the track as far off over the ground as its drift does.
-/// The steps that were taken are larger: ties to older pictures take much of their errors back.
-fn drift_a_picture_px(steps: &[DesignatedStep]) -> f64 {
-    let drift_first_px2 = steps.iter().map(|s| s.drift_first_px2).fold(0.0, f64::max);
-    let of_unit_steps = steps.iter().skip(1).map(|s| s.pixel_size.powi(2)).sum::<f64>();
-    if of_unit_steps > 0.0 { (drift_first_px2 / of_unit_steps).sqrt() } else { 0.0 }
-}
-
-/// The rotations between adjacent pictures in lander axes.
-fn image_rotations(front_end: &FrontEnd, lander_from_camera: &Isometry3<f64>) -> Vec<ImageRotation> {
-    let mount = lander_from_camera.rotation;
-    let turn = mount.to_rotation_matrix().into_inner();
-    let adjacent = |r: &&RelativeRotation| {
-        front_end.frames.windows(2).any(|pair| (pair[0].t_ns, pair[1].t_ns) == (r.t_ns_from, r.t_ns_to))
-    };
-    let usable = front_end.rotations.iter().filter(|r| r.status == PairStatus::Ok);
-    let mut rotations: Vec<ImageRotation> = usable
-        .filter(adjacent)
-        .map(|r| ImageRotation {
-            from_t_ns: r.t_ns_from,
-            to_t_ns: r.t_ns_to,
-            after_from_before: mount * r.camera_to_from_camera_from * mount.inverse(),
-            covariance_rad2: turn * r.covariance_rad2 * turn.transpose(),
-        })
-        .collect();
-    rotations.sort_by_key(|r| r.to_t_ns);
-    rotations.dedup_by_key(|r| r.to_t_ns);
-    rotations
 }
 
 fn write_result(
@@ -190,41 +160,4 @@ fn describe(result: &LandingResult, config: &LandingConfig, summary: &mut Summar
             "sigma_accelerometer_m_s2": &sigma[3..],
         })),
     });
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::{Matrix2, Vector2};
-
-    fn steps(step_px: f64, ratio: f64) -> Vec<DesignatedStep> {
-        let mut drift_first_px2 = 0.0;
-        let step = |k: i32| {
-            let pixel_size = ratio.powi(k);
-            drift_first_px2 += if k > 0 { (step_px * pixel_size).powi(2) } else { 0.0 };
-            DesignatedStep {
-                t_ns: i64::from(k),
-                pixel_px: Vector2::zeros(),
-                step_sigma_px: step_px,
-                covariance_px2: Matrix2::identity(),
-                pixel_size,
-                drift_first_px2,
-                t_ns_from: i64::from(k - 1),
-                refined: true,
-            }
-        };
-        (0..50).map(step).collect()
-    }
-
-    #[test]
-    fn independent_steps_drift_by_their_own_size() {
-        for ratio in [1.0, 0.9] {
-            assert!((drift_a_picture_px(&steps(0.04, ratio)) - 0.04).abs() < 1e-12);
-        }
-        let mut held = steps(0.04, 0.9);
-        held.iter_mut().for_each(|s| s.drift_first_px2 *= 0.25);
-        assert!((drift_a_picture_px(&held) - 0.02).abs() < 1e-12, "ties to older pictures that hold the point");
-        assert_eq!(drift_a_picture_px(&held[..1]), 0.0);
-        assert_eq!(drift_a_picture_px(&[]), 0.0);
-    }
 }

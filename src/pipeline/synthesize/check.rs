@@ -1,7 +1,8 @@
 //! Which frames of an earlier job can be trusted.
 
-use super::frame::{FrameRecord, frame_files};
-use super::run::FrameKey;
+use super::frame::frame_files;
+use super::record::FrameRecord;
+use super::request::FrameKey;
 use crate::dataset::{Checksums, EarlierWork, read_depth_tiff, sha256_hex};
 use crate::scene::{DepthPicture, Scene, TruthConfig, observe_landmarks};
 use rayon::prelude::*;

@@ -1,8 +1,9 @@
 //! Drawing the missing pictures, camera by camera.
 
 use super::folder::DatasetFolder;
-use super::frame::{DrawnFrame, FrameRecord, finish_frame};
-use super::run::FrameKey;
+use super::frame::finish_frame;
+use super::record::{DrawnFrame, FrameRecord};
+use super::request::{DrawTiming, FrameKey};
 use super::workers::draw_and_finish;
 use crate::geometry::Camera;
 use crate::pipeline::error::PipelineError;
@@ -11,19 +12,6 @@ use crate::render::{Detector, Gpu, RenderedFrame, Renderer, World, add_stars};
 use crate::scene::{RenderConfig, Scenario, Scene};
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
-
-/// Where the time of drawing and writing went.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct DrawTiming {
-    /// Pictures drawn.
-    pub drawn: usize,
-    /// From the first picture's beginning to the last one's file.
-    pub wall: Duration,
-    /// Time in the renderer.
-    pub drawing: Duration,
-    /// Time in the threads that expose, pack and write, all together; it runs beside the drawing.
-    pub finishing: Duration,
-}
 
 /// Threads that finish pictures, at most: more would only hold more memory.
 const MOST_THREADS: usize = 8;

@@ -1,7 +1,7 @@
 //! The data set's folder: who may use it, and the journal of what is finished in it.
 
-use super::frame::FrameRecord;
-use super::run::{FrameKey, SynthesizeRequest};
+use super::record::FrameRecord;
+use super::request::{FrameKey, SynthesizeRequest};
 use crate::dataset::{
     Checksums, DatasetError, EarlierWork, Journal, read_earlier_work, remove_partial_files, sha256_hex,
     write_atomically, write_text,

@@ -1,31 +1,14 @@
 //! One picture after it was drawn: through the detector, packed, hashed, written, noted.
 
 use super::folder::DatasetFolder;
-use crate::dataset::truth::{Landmark, LandmarkObservation, TruthRaster};
-use crate::dataset::{Checksums, DatasetError, encode_grey_png, encode_scalar_tiff, encode_vector_tiff};
+use super::record::{DrawnFrame, FrameRecord};
+use crate::dataset::truth::{Landmark, TruthRaster};
+use crate::dataset::{DatasetError, encode_grey_png, encode_scalar_tiff, encode_vector_tiff};
 use crate::pipeline::error::PipelineError;
-use crate::render::{Detector, RenderedFrame};
-use crate::scene::{DepthPicture, SceneCamera, TruthConfig, View, observe_landmarks};
+use crate::render::RenderedFrame;
+use crate::scene::{DepthPicture, SceneCamera, TruthConfig, observe_landmarks};
 use image::{DynamicImage, GrayImage};
 use std::path::Path;
-
-/// A picture that was drawn.
-pub(super) struct DrawnFrame<'a> {
-    pub key: super::run::FrameKey,
-    pub camera: &'a SceneCamera,
-    pub detector: &'a Detector,
-    pub view: View,
-    pub truth: RenderedFrame,
-}
-
-/// What is known of a finished picture.
-#[derive(Debug, Clone)]
-pub(super) struct FrameRecord {
-    /// Its files.
-    pub checksums: Checksums,
-    /// The landmarks within it.
-    pub observations: Vec<LandmarkObservation>,
-}
 
 /// The truth that a picture comes with; depth is the first.
 pub(super) fn truth_kinds(wanted: &TruthConfig) -> Vec<TruthRaster> {

@@ -1,7 +1,7 @@
 //! The files of a data set that are not pictures.
 
-use super::frame::FrameRecord;
-use super::run::FrameKey;
+use super::record::FrameRecord;
+use super::request::FrameKey;
 use crate::dataset::truth::{
     LandmarkObservation, camera_poses_file, write_asteroid, write_lander_states, write_landmarks, write_node_states,
     write_observations,

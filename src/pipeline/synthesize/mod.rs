@@ -12,8 +12,11 @@ mod folder;
 mod frame;
 mod lists;
 mod measured;
+mod record;
+mod request;
 mod run;
 mod workers;
 
 pub use draw::world;
-pub use run::{SynthesizeRequest, Synthesized, synthesize};
+pub use request::{SynthesizeRequest, Synthesized};
+pub use run::synthesize;

@@ -1,12 +1,13 @@
 //! The story from beginning to end.
 
 use super::check::check_earlier_frames;
-use super::draw::{DrawTiming, draw_frames};
+use super::draw::draw_frames;
 use super::flow::write_flows;
 use super::folder::DatasetFolder;
-use super::frame::FrameRecord;
 use super::lists::{write_lists, write_observation_lists};
 use super::measured::{note_filled_posts, write_elevation};
+use super::record::FrameRecord;
+use super::request::{FrameKey, SynthesizeRequest, Synthesized};
 use crate::dataset::{CameraId, Manifest, write_manifest};
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::progress::Progress;
@@ -14,39 +15,7 @@ use crate::pipeline::track::checked_frames;
 use crate::render::Gpu;
 use crate::scene::{Scenario, Scene};
 use std::collections::BTreeMap;
-use std::ops::Range;
-use std::path::{Path, PathBuf};
-
-/// What to render, and where to.
-#[derive(Debug, Clone)]
-pub struct SynthesizeRequest {
-    /// The scenario file.
-    pub scenario: PathBuf,
-    /// The data set's folder.
-    pub out: PathBuf,
-    /// `key=value` changes to the scenario, dotted keys.
-    pub overrides: Vec<String>,
-    /// Frames of each camera to make beside those that are there already; all if `None`.
-    pub frames: Option<Range<usize>>,
-    /// Continue an interrupted job.
-    pub resume: bool,
-    /// Part of the name of the graphics adapter to use.
-    pub adapter: Option<String>,
-}
-
-/// What was made.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Synthesized {
-    /// Frames of each camera in the data set.
-    pub frames: usize,
-    /// Cameras in the data set.
-    pub cameras: usize,
-    /// Where the time went.
-    pub timing: DrawTiming,
-}
-
-/// A picture of a data set: its camera's place in [`Scene::cameras`] and its own place in the camera's views.
-pub(super) type FrameKey = (usize, usize);
+use std::path::Path;
 
 /// Makes the data set.
 ///

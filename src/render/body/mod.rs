@@ -4,6 +4,7 @@ mod albedo_map;
 mod body_geometry;
 mod enclosure;
 
+pub use body_geometry::BodyGeometry;
+
 #[cfg(test)]
 pub use albedo_map::SOURCE;
-pub use body_geometry::BodyGeometry;

@@ -1,6 +1,6 @@
 //! Variants of the shader that shades (`shaders/shading.wgsl`), each made when a picture first needs it.
 
-use super::shading::{ShadingJob, ShadingKind};
+use super::job::{ShadingJob, ShadingKind};
 use crate::render::gpu::Gpu;
 use crate::render::optics::Lens;
 use std::cell::OnceCell;

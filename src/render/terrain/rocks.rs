@@ -1,13 +1,10 @@
 //! Rocks on terrain tiles: those too small for a tile's own vertices to show stand on it as meshes of their own.
 
 use super::rock_mesh::RockMesh;
-use super::tile::{TileKey, TileVertex, tile_vertex};
+use super::tile::{TILE_ROCK_SPACINGS, TileKey, TileVertex, tile_vertex};
 use crate::scene::{GroundDetail, Rock, Terrain, TerrainPatch};
 use nalgebra::Vector2;
 
-/// Rocks of this many spacings and more are a tile's own vertices' to show. They also are meshes up to twice as many, for the
-/// tile's coarser copy leaves those out.
-pub(super) const TILE_ROCK_SPACINGS: f64 = 16.0;
 /// The smallest rocks that are drawn, in spacings.
 const SMALLEST_SPACINGS: f64 = 0.5;
 /// Rocks for each vertex of a tile: where there are more, an octave of diameters less is drawn. Rocks that cover a twentieth of

@@ -1,6 +1,5 @@
 //! Square tiles of terrain vertices, each of one level of a quadtree.
 
-use super::rocks::TILE_ROCK_SPACINGS;
 use crate::scene::{GroundDetail, GroundSample};
 
 /// Vertices along a tile's edge: `SIDE` in `shaders/terrain_geometry.wgsl`.
@@ -69,3 +68,7 @@ impl TileKey {
 pub(super) fn tile_vertex(ground: &GroundSample) -> TileVertex {
     [ground.height_m as f32, ground.gradient.x as f32, ground.gradient.y as f32, ground.albedo_change as f32]
 }
+
+/// Rocks of this many spacings and more are a tile's own vertices' to show. They also are meshes up to twice as many, for the
+/// tile's coarser copy leaves those out.
+pub(super) const TILE_ROCK_SPACINGS: f64 = 16.0;

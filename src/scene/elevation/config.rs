@@ -1,6 +1,7 @@
 //! Settings of elevation models and orthoimages.
 
 use super::formats::RawLayout;
+use super::map_site::MapSite;
 use crate::scene::error::SceneError;
 use crate::settings::limits;
 use schemars::JsonSchema;
@@ -109,29 +110,6 @@ pub enum RasterGeometry {
     },
 }
 
-/// Where the site's origin lies on a map.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub enum MapSite {
-    /// In the middle of the raster.
-    #[default]
-    Middle,
-    /// At a place of a map in degrees.
-    Degrees {
-        /// Latitude.
-        latitude_deg: f64,
-        /// East longitude.
-        longitude_deg: f64,
-    },
-    /// At a place of a map in metres.
-    Metres {
-        /// East coordinate in m.
-        x_m: f64,
-        /// North coordinate in m.
-        y_m: f64,
-    },
-}
-
 fn one() -> f64 {
     1.0
 }
@@ -207,21 +185,5 @@ impl RasterFile {
             }
         }
         self.layout.map_or(Ok(()), |layout| layout.validate()).map_err(|e| e.under("layout"))
-    }
-}
-
-impl MapSite {
-    fn validate(&self) -> Result<(), SceneError> {
-        match *self {
-            MapSite::Middle => Ok(()),
-            MapSite::Degrees { latitude_deg, longitude_deg } => {
-                limits::within("degrees.latitude_deg", latitude_deg, -89.9, 89.9)?;
-                limits::within("degrees.longitude_deg", longitude_deg, -360.0, 360.0)
-            }
-            MapSite::Metres { x_m, y_m } => {
-                limits::finite("metres.x_m", &[x_m])?;
-                limits::finite("metres.y_m", &[y_m])
-            }
-        }
     }
 }

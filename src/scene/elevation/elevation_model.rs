@@ -3,7 +3,7 @@
 use super::block_bounds::{BlockBounds, Blocks};
 use super::fill::fill_unknown;
 use super::grid::Grid;
-use super::map_place::MapPlace;
+use super::map_site::MapPlace;
 use super::raster::Raster;
 use super::site_map::{Located, SiteMap};
 use crate::scene::error::SceneError;

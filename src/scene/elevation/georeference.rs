@@ -1,6 +1,6 @@
 //! Where the posts of a raster lie on its map.
 
-use super::map_place::MapPlace;
+use super::map_site::MapPlace;
 
 /// Where the posts of a raster lie: on a plane map in metres, or on a grid of latitude and longitude (simple
 /// cylindrical). Posts are counted from 0; a post is the centre of its cell.

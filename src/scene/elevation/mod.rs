@@ -13,15 +13,15 @@ mod fill;
 mod formats;
 mod georeference;
 mod grid;
-mod map_place;
+mod map_site;
 mod orthoimage;
 mod raster;
 mod site_map;
 
-pub use config::{AlbedoValues, ElevationConfig, MapSite, OrthoimageConfig, RasterFile, RasterGeometry};
+pub use config::{AlbedoValues, ElevationConfig, OrthoimageConfig, RasterFile, RasterGeometry};
 pub use elevation_model::{ElevationModel, ElevationSummary};
 pub use formats::{RawLayout, SampleKind};
 pub use georeference::Georeference;
-pub use map_place::MapPlace;
+pub use map_site::{MapPlace, MapSite};
 pub use orthoimage::Orthoimage;
 pub use raster::Raster;

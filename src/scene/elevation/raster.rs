@@ -1,31 +1,14 @@
 //! A raster as it comes from a file.
 
 use super::config::{RasterFile, RasterGeometry};
-use super::formats::{geotiff, pds, png};
+use super::formats::{FileGeoreference, FileRaster, geotiff, pds, png};
 use super::georeference::Georeference;
+use super::map_site::MapPlace;
 use crate::scene::error::SceneError;
 use std::path::Path;
 
 /// Radius of Mars in m: that of its IAU sphere.
 const MARS_RADIUS_M: f64 = 3_396_190.0;
-/// Most posts of a raster, so that it fits in memory.
-pub(super) const MOST_POSTS: usize = 100_000_000;
-
-/// A raster as its file holds it, before any setting of the scenario.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct FileRaster {
-    pub columns: usize,
-    /// Row by row from the top; NaN where the file says that it does not know.
-    pub values: Vec<f64>,
-    pub georeference: Option<FileGeoreference>,
-}
-
-/// What a file says of its map.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum FileGeoreference {
-    Metres { first_m: [f64; 2], step_m: [f64; 2] },
-    Degrees { first_deg: [f64; 2], step_deg: [f64; 2], radius_m: Option<f64> },
-}
 
 /// Values on a map.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,6 +51,39 @@ impl Raster {
     }
 }
 
+impl Raster {
+    /// Column and row of a place, which has to lie on the raster; the middle without one.
+    ///
+    /// # Errors
+    /// Names `key` if the place is of the other kind of map or outside.
+    pub(super) fn site_column_row(&self, place: Option<&MapPlace>, key: &str) -> Result<[f64; 2], SceneError> {
+        let last = [self.columns as f64 - 1.0, self.rows() as f64 - 1.0];
+        let Some(place) = place else { return Ok(last.map(|l| (0.5 * l).round())) };
+        let at = self.georeference.column_row(place, self.columns).ok_or_else(|| {
+            let middle = self.georeference.place(last.map(|l| 0.5 * l));
+            SceneError::out_of_range(key, place, format!("the map's middle is {middle}: state the site in its terms"))
+        })?;
+        let wraps = self.georeference.wraps(self.columns);
+        if (!wraps && !(0.0..=last[0]).contains(&at[0])) || !(0.0..=last[1]).contains(&at[1]) {
+            let (first, end) = (self.georeference.place([0.0, 0.0]), self.georeference.place(last));
+            let cure = format!("the file covers ({first}) to ({end}): choose a place inside or another file");
+            return Err(SceneError::out_of_range(key, place, cure));
+        }
+        Ok(at)
+    }
+
+    /// Whether not one of the four posts around a column and a row is known.
+    pub(super) fn is_unknown_around(&self, at: [f64; 2]) -> bool {
+        let clamped = |c: f64, last: usize| (c.max(0.0) as usize).min(last);
+        let corner = |k: usize| {
+            let column = clamped((at[0] + (k % 2) as f64).floor(), self.columns - 1);
+            let row = clamped((at[1] + (k / 2) as f64).floor(), self.rows() - 1);
+            self.values[row * self.columns + column].is_nan()
+        };
+        (0..4).all(corner)
+    }
+}
+
 fn read_any(file: &RasterFile, path: &Path) -> Result<FileRaster, SceneError> {
     let bytes = std::fs::read(path).map_err(|source| SceneError::Io {
         action: "read the raster",
@@ -88,11 +104,6 @@ fn read_any(file: &RasterFile, path: &Path) -> Result<FileRaster, SceneError> {
         }
         _ => pds::read(path, bytes, lacks_geometry),
     }
-}
-
-/// What to say of a raster that does not fit in memory.
-pub(super) fn too_many([columns, rows]: [usize; 2]) -> String {
-    format!("it has {columns} × {rows} posts, and {MOST_POSTS} are allowed: cut out the part around the site")
 }
 
 fn georeference(file: &RasterFile, found: &FileRaster) -> Result<Georeference, String> {

@@ -1,7 +1,7 @@
 //! From the site frame to the posts of a raster.
 
 use super::georeference::{Georeference, nearest_turn};
-use super::map_place::MapPlace;
+use super::map_site::MapPlace;
 use nalgebra::{Matrix3, Rotation3, RowVector3, Vector3};
 
 /// Maps places in the site frame to columns and rows of a raster and to heights above its datum.

@@ -1,6 +1,6 @@
 //! What is measured of the ground: its heights, its albedo, or both.
 
-use super::terrain::{GroundDetail, GroundSample};
+use super::relief::{GroundDetail, GroundSample};
 use crate::scene::elevation::{ElevationConfig, ElevationModel, MapSite, Orthoimage, OrthoimageConfig, Raster};
 use crate::scene::error::SceneError;
 use nalgebra::{Vector2, Vector3};

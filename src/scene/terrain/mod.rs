@@ -11,9 +11,9 @@ mod terrain;
 
 pub use config::{TerrainConfig, TerrainConfigError};
 pub use features::{
-    CraterClass, Feature, FeatureSample, HummockClass, RippleClass, Rock, RockClass, Scatter, UnitClass,
-    rock_density_1_m2,
+    CraterClass, Feature, HummockClass, RippleClass, Rock, RockClass, Scatter, UnitClass, rock_density_1_m2,
 };
 pub use measured_base::GroundBase;
 pub use patch::TerrainPatch;
-pub use terrain::{GroundDetail, GroundSample, Terrain};
+pub use relief::{FeatureSample, GroundDetail, GroundSample};
+pub use terrain::Terrain;

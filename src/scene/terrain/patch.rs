@@ -1,8 +1,8 @@
 //! A rectangle of terrain whose craters, rocks and lattices have been looked up once, for evaluating many places in it.
 
-use super::features::{Bins, Crater, FeatureSample, Hummock, RippleClass, RippleTables, Rock, Softened, UnitClass};
-use super::relief::OctaveSums;
-use super::terrain::{GroundDetail, GroundSample, Terrain};
+use super::features::{Bins, Crater, Hummock, RippleClass, RippleTables, Rock, Softened, UnitClass};
+use super::relief::{FeatureSample, GroundDetail, GroundSample, OctaveSums};
+use super::terrain::Terrain;
 use crate::scene::noise::NoiseTable;
 use nalgebra::Vector2;
 

@@ -1,9 +1,9 @@
 //! Procedural terrain: fractal relief, craters and albedo, known at every place from kilometres down to centimetres.
 
 use super::config::TerrainConfig;
-use super::features::{CraterClass, FeatureSample, HummockClass, RippleClass, Softened, TerrainFeatures, UnitClass};
+use super::features::{CraterClass, HummockClass, RippleClass, Softened, TerrainFeatures, UnitClass};
 use super::measured_base::GroundBase;
-use super::relief::OctaveSums;
+use super::relief::{FeatureSample, GroundDetail, GroundSample, OctaveSums};
 use crate::scene::noise::{NoiseOctave, OctaveStrength};
 use crate::scene::photometry::Photometry;
 use nalgebra::Vector2;
@@ -20,32 +20,6 @@ pub struct Terrain {
     pub(super) height_at_origin_m: f64,
     /// What is measured of the ground; the rest of this is added to it.
     pub(super) base: Option<Arc<GroundBase>>,
-}
-
-/// The ground at one place.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GroundSample {
-    /// Height in m.
-    pub height_m: f64,
-    /// Gradient of the height by x and y.
-    pub gradient: Vector2<f64>,
-    /// Albedo over the mean albedo, minus 1, before clamping.
-    pub albedo_change: f64,
-}
-
-/// Which details of the ground are evaluated: those at least this large, in m.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct GroundDetail {
-    /// Wavelength of relief that counts in the height.
-    pub height_m: f64,
-    /// Wavelength of relief and albedo that counts in gradient and albedo; at least `height_m`.
-    pub shade_m: f64,
-    /// Diameter that features need to be shown whole; round ones show from half of it, ripples and units from more.
-    pub feature_m: f64,
-    /// Diameter of the smallest rock that shows.
-    pub rock_m: f64,
-    /// Footprint of a pixel: details near it fade as they do in a picture. 0 shows all.
-    pub footprint_m: f64,
 }
 
 impl Terrain {
@@ -169,16 +143,5 @@ impl Terrain {
     /// Radiance of the sky over that of a sunlit white surface.
     pub fn sky_light(&self) -> f64 {
         self.sky_light
-    }
-}
-
-impl GroundSample {
-    /// The ground with what stands on it; nothing changes where that has no height.
-    pub(super) fn under(self, standing: &FeatureSample) -> GroundSample {
-        GroundSample {
-            height_m: self.height_m + standing.height_m,
-            gradient: self.gradient + standing.gradient,
-            albedo_change: self.albedo_change + standing.albedo,
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! Settings of a tumbling scene.
 
 use super::inertia::InertiaSource;
-use super::placement::PhaseConfig;
+use super::phase::PhaseConfig;
 use crate::scene::body::{BodySource, SurfaceConfig};
 use crate::scene::error::SceneError;
 use crate::scene::stars::SkyConfig;

@@ -4,11 +4,12 @@
 mod build;
 mod config;
 mod inertia;
+mod phase;
 mod placement;
 mod rigid_body;
 
 pub use build::TumblingScene;
 pub use config::TumblingConfig;
 pub use inertia::InertiaSource;
-pub use placement::PhaseConfig;
+pub use phase::PhaseConfig;
 pub use rigid_body::{RigidBody, Spin};

@@ -7,13 +7,11 @@
 
 use super::keyframes::{Keyframe, Keyframes, Tie};
 use crate::dataset::{DesignatedPoint, Frame};
-use crate::vision::config::KltConfig;
 use crate::vision::error::VisionError;
 use crate::vision::front_end::DesignatedStep;
 use crate::vision::masks::KeepOut;
-use crate::vision::patch::{Match, fit_affine, refine_by_patch};
-use crate::vision::sequence::Job;
-use crate::vision::tracking::Tracks;
+use crate::vision::patch::{KltConfig, Match, fit_affine, refine_by_patch};
+use crate::vision::tracking::{Job, Tracks};
 use image::GrayImage;
 
 /// Half the side of the patch about the point, px.

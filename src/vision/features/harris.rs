@@ -1,40 +1,14 @@
 //! Harris corners (Harris and Stephens 1988), spread evenly and located to a fraction of a pixel.
 
+use super::config::DetectorConfig;
 use super::even_spread::spread_evenly;
+use super::feature::Feature;
 use super::harris_response::responses;
 use super::image_noise::noise_sigma_dn;
 use super::local_maxima::local_maxima;
-use super::subpixel_peak::{Grid, Peak};
-use crate::vision::config::DetectorConfig;
+use super::subpixel_peak::Grid;
 use crate::vision::error::VisionError;
 use image::GrayImage;
-use nalgebra::{Matrix2, Vector2};
-
-/// A corner.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Feature {
-    /// Pixel (u, v).
-    pub pixel_px: Vector2<f64>,
-    /// Harris response (grey levels as fractions of 255).
-    pub response: f64,
-    /// Predicted 1σ of each coordinate in px: the root of half the covariance's trace.
-    pub sigma_px: f64,
-    /// Predicted covariance of the pixel in px², from the noise through the structure tensor, and from the change of the
-    /// ground's looks between two pictures through the shape of the peak.
-    pub covariance_px2: Matrix2<f64>,
-}
-
-impl Feature {
-    fn new(grid: &Grid, peak: &Peak, config: &DetectorConfig) -> Self {
-        let covariance_px2 = grid.covariance_px2(peak, config);
-        Feature {
-            pixel_px: peak.pixel_px,
-            response: peak.response,
-            sigma_px: (0.5 * covariance_px2.trace()).sqrt(),
-            covariance_px2,
-        }
-    }
-}
 
 /// Finds at most `max_features` Harris corners of a picture, in order of response; where `mask` is given, only where it
 /// is not zero.

@@ -1,7 +1,7 @@
 //! The Harris response of a picture, in one pass over its lines.
 
+use super::config::DetectorConfig;
 use super::line_filter::{Lines, Padded, along, down, gaussian};
-use crate::vision::config::DetectorConfig;
 use std::cell::Cell;
 
 /// A smoothed picture (grey levels / 255) and its smoothed Harris response, row by row.

@@ -1,6 +1,6 @@
 //! Peaks of a corner response: where exactly, how blunt, and how well known.
 
-use crate::vision::config::DetectorConfig;
+use super::config::DetectorConfig;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 /// What changes between two pictures besides noise tilts the response about a peak by this share of its height a px;

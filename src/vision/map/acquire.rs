@@ -3,12 +3,11 @@
 use super::fit::{Pointing, fit_pose};
 use super::ground::Ground;
 use super::points::half_px;
-use super::result::PredictedCamera;
 use super::view::MapView;
 use crate::geometry::Camera;
-use crate::vision::config::DetectorConfig;
+use crate::observations::PredictedCamera;
 use crate::vision::error::VisionError;
-use crate::vision::features::{Feature, detect_harris};
+use crate::vision::features::{DetectorConfig, Feature, detect_harris};
 use crate::vision::matching::{Described, MatcherConfig, OrbDescriptor, Orientation, describe_orb, match_features};
 use crate::vision::opencv_bridge::{mat_from, points};
 use image::GrayImage;

@@ -1,7 +1,7 @@
 //! The pose from which points of the map are seen where they were found.
 
-use super::result::PredictedCamera;
 use crate::geometry::{Camera, so3};
+use crate::observations::PredictedCamera;
 use nalgebra::{Isometry3, Matrix2x6, Matrix3, Matrix6, Vector2, Vector3, Vector6};
 
 /// A point of the map in the site frame (m), and its pixel.

@@ -16,4 +16,4 @@ mod view;
 
 pub use config::MapMatchConfig;
 pub use matcher::MapMatcher;
-pub use result::{MapFix, MapSighting, MapStatus, PredictedCamera};
+pub use result::{MapFix, MapSighting, MapStatus};

@@ -6,10 +6,9 @@ use super::ground::Meeting;
 use super::result::MapSighting;
 use super::view::MapView;
 use crate::dataset::MapLevel;
-use crate::vision::config::{DetectorConfig, KltConfig};
 use crate::vision::error::VisionError;
-use crate::vision::features::detect_harris;
-use crate::vision::patch::track_patches;
+use crate::vision::features::{DetectorConfig, detect_harris};
+use crate::vision::patch::{KltConfig, track_patches};
 use image::GrayImage;
 use nalgebra::{Matrix2, Vector2};
 

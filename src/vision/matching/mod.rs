@@ -1,5 +1,6 @@
 //! Descriptors and their matching.
 
+mod cell_index;
 mod config;
 mod descriptor;
 mod descriptor_set;
@@ -7,9 +8,10 @@ mod matcher;
 mod orb;
 mod sift;
 
+pub use cell_index::CellIndex;
 pub use config::{DescriptorKind, MatcherConfig, SiftConfig};
 pub use descriptor::{Descriptor, MatchLimits, Orientation};
 pub use descriptor_set::{Descriptions, match_described};
-pub use matcher::{CellIndex, Described, IndexMatch, match_features, match_features_guided};
+pub use matcher::{Described, IndexMatch, match_features, match_features_guided};
 pub use orb::{OrbDescriptor, describe_orb};
 pub use sift::{PATCH_CURE, PATCH_RANGE_PX, SiftDescriptor, describe_sift};

@@ -1,13 +1,13 @@
 //! Candidate motions of a picture pair, ranked by their likelihood.
 
+use super::config::RotationConfig;
 use super::covariance::{cells, sums_by_cell};
 use super::models::{Plane, Turn};
 use super::normalized_match::Sight;
 use super::plane::{Ground, GroundFit, fit_ground, plane_of_motion};
-use super::relative_rotation::PairHints;
 use super::robust_fit::{PairFit, fit};
+use super::solution::PairHints;
 use super::usac;
-use crate::vision::config::RotationConfig;
 use nalgebra::{Matrix3, Rotation3, SVector, Unit, UnitQuaternion, Vector3};
 
 /// A fitted ground with its cost.

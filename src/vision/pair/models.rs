@@ -3,7 +3,7 @@
 //! A point `x` in the first camera is `R x + t` in the second. Rotations move as `exp(d) R`, `d` in the second camera's
 //! axes.
 
-use super::robust_fit::{PairModel, Relation};
+use super::residual::{PairModel, Relation};
 use crate::geometry::so3::{exp, hat, tangent_basis};
 use nalgebra::{Matrix3, SVector, Unit, UnitQuaternion, Vector2, Vector3};
 

@@ -4,7 +4,7 @@ use super::covariance::{Size, refine};
 use super::models::General;
 use super::normalized_match::Sight;
 use super::plane::GroundFit;
-use crate::vision::result::RotationModel;
+use crate::observations::RotationModel;
 use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
 
 /// Relief shows where the ratio of the variances of its parallax and of the noise, added up over the matches, exceeds this.

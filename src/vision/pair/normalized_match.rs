@@ -1,7 +1,7 @@
 //! Matches in ideal coordinates, with the noise that their pixels have there.
 
+use super::correspondence::MatchedPair;
 use crate::geometry::Camera;
-use crate::vision::result::MatchedPair;
 use nalgebra::{Matrix2, Vector2, Vector3};
 
 /// One point seen in two pictures, in ideal (undistorted) coordinates (x/z, y/z), each with its covariance.

@@ -6,7 +6,8 @@
 
 use super::models::Plane;
 use super::normalized_match::Sight;
-use super::robust_fit::{Loss, Relation, descend, residual};
+use super::residual::{Relation, residual};
+use super::robust_fit::{Loss, descend};
 use nalgebra::Matrix3;
 
 /// A parallax greater than this many times the median is implausible.

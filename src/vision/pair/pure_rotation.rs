@@ -1,12 +1,12 @@
 //! Pairs between which the camera only turned, or rested.
 
+use super::config::RotationConfig;
 use super::models::{KnownPlane, Plane, Turn};
 use super::normalized_match::Sight;
-use super::relative_rotation::PairSolution;
 use super::robust_fit::PairFit;
+use super::solution::PairSolution;
 use crate::geometry::so3;
-use crate::vision::config::RotationConfig;
-use crate::vision::result::{PairStatus, RotationModel};
+use crate::observations::{PairStatus, RotationModel};
 use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
 
 /// A pure rotation: its covariance allows for an unseen translation over ground ahead; no rotation at all is no motion.
@@ -30,7 +30,7 @@ pub(super) fn judge_turn(
     let normal = super::robust_fit::normal_equations(&KnownPlane(plane), sights, loss);
     let covariance = normal.information.try_inverse().ok_or(PairStatus::Degenerate)? * turn.scale.powi(2);
     let covariance: Matrix3<f64> = covariance.fixed_view::<3, 3>(0, 0).into_owned();
-    if !super::relative_rotation::is_determined(&covariance, config) {
+    if !super::solution::is_determined(&covariance, config) {
         return Err(PairStatus::Degenerate);
     }
     Ok(PairSolution {

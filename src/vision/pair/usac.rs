@@ -1,8 +1,8 @@
 //! First robust estimates through OpenCV's USAC framework (MAGSAC scores, a fixed seed, one thread).
 
+use super::config::RotationConfig;
 use super::models::{General, Plane};
 use super::normalized_match::Sight;
-use crate::vision::config::RotationConfig;
 use crate::vision::error::VisionError;
 use crate::vision::opencv_bridge::{mat_from, matrix_from, points, vector_from};
 use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};

@@ -5,12 +5,10 @@
 //! of a pixel, but alike wherever the surface curves alike, which no number of matches averages out. So the affine map is
 //! refined with the patch itself (Shi and Tomasi 1994), held near what the matches say.
 
-use super::alignment::{
-    FLOOR_SIGMA_PX, LEAST_VARIANCE_DN2, Refined, SHARED, dot, halved_difference, refine_by_patch, sample_square,
-    sample_warped, sum,
-};
+use super::alignment::{FLOOR_SIGMA_PX, LEAST_VARIANCE_DN2, Refined, SHARED, refine_by_patch};
+use super::config::KltConfig;
 use super::local_affine::Affine;
-use crate::vision::config::KltConfig;
+use super::sampling::{dot, halved_difference, sample_square, sample_warped, sum};
 use image::GrayImage;
 use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 

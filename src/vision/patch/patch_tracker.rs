@@ -1,8 +1,8 @@
 //! Points followed from picture to picture by the grey levels about them, after warping them by a predicted motion.
 
 use super::alignment::{Refined, refine_by_patch};
+use super::config::KltConfig;
 use super::local_affine::Affine;
-use crate::vision::config::KltConfig;
 use crate::vision::error::VisionError;
 use crate::vision::opencv_bridge::{grey_image, picture_mat};
 use image::GrayImage;

@@ -1,14 +1,16 @@
 //! One pair of adjacent pictures: matched, solved, sharpened, solved again.
 
-use super::image_features::{FrameFeatures, PairPixels, Way, match_pair, milliseconds};
-use super::refined_match::{Link, Stretch, sharpen};
+use super::image_features::{FrameFeatures, Way, match_pair};
+use super::job::{Job, milliseconds};
+use super::link::{Link, Stretch};
+use super::pair_pixels::PairPixels;
+use super::refined_match::sharpen;
+use crate::observations::PairStatus;
 use crate::vision::config::FrontEndMode;
 use crate::vision::error::VisionError;
 use crate::vision::matching::IndexMatch;
 use crate::vision::pair::{PairHints, PairSolution, relative_rotation};
 use crate::vision::patch::Match;
-use crate::vision::result::PairStatus;
-use crate::vision::sequence::Job;
 use nalgebra::UnitQuaternion;
 use std::f64::consts::SQRT_2;
 use std::time::Instant;

@@ -2,12 +2,12 @@
 
 use super::adjacent_pair::Pair;
 use super::image_chain::Chain;
-use super::image_features::PairPixels;
+use super::job::{Center, Job};
+use super::pair_pixels::PairPixels;
 use crate::geometry::Camera;
+use crate::observations::PairStatus;
 use crate::vision::error::VisionError;
 use crate::vision::pair::{PairHints, relative_rotation};
-use crate::vision::result::PairStatus;
-use crate::vision::sequence::{Center, Job};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 /// Pairs with two rival solutions are solved again with the ground's normal as their neighbours found it: first as the

@@ -4,13 +4,11 @@
 //! matches about it say where it went, and its patch, warped by them, where exactly; the patch must lead back to where it
 //! came from.
 
-use super::refined_match::Link;
-use super::tracks::TrackPoint;
-use crate::vision::config::KltConfig;
+use super::link::{Link, TrackPoint};
 use crate::vision::features::Feature;
 use crate::vision::masks::KeepOut;
 use crate::vision::matching::CellIndex;
-use crate::vision::patch::{Affine, Match, fit_affine, refine_by_patch};
+use crate::vision::patch::{Affine, KltConfig, Match, fit_affine, refine_by_patch};
 use image::GrayImage;
 use nalgebra::Vector2;
 use rayon::prelude::*;

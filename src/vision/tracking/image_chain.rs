@@ -3,13 +3,13 @@
 use super::adjacent_pair::{Pair, solve_sharp_pair};
 use super::coasted_tracks::Passage;
 use super::image_features::FrameFeatures;
+use super::job::Job;
 use super::tracks::Tracks;
 use crate::dataset::Frame;
+use crate::observations::FrameStatus;
 use crate::vision::config::FrontEndMode;
 use crate::vision::error::VisionError;
 use crate::vision::front_end::FrameReport;
-use crate::vision::result::FrameStatus;
-use crate::vision::sequence::Job;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -1,18 +1,15 @@
 //! Features of one picture, and their matches with the next.
 
-use super::refined_match::Link;
-use super::tracks::SharedPoint;
+use super::job::{Job, milliseconds};
 use crate::dataset::Frame;
 use crate::geometry::Camera;
+use crate::observations::FrameStatus;
 use crate::vision::config::{FrontEndConfig, FrontEndMode};
 use crate::vision::error::VisionError;
 use crate::vision::features::{Feature, detect_harris};
 use crate::vision::front_end::FrameReport;
 use crate::vision::masks::{bright_centroid_px, inside_silhouette};
 use crate::vision::matching::{Descriptions, IndexMatch, MatcherConfig, Orientation, match_described};
-use crate::vision::pair::PixelMatches;
-use crate::vision::result::{FrameStatus, MatchedPair};
-use crate::vision::sequence::Job;
 use image::GrayImage;
 use nalgebra::{UnitQuaternion, Vector2};
 use std::borrow::Cow;
@@ -27,10 +24,6 @@ pub struct FrameFeatures {
     pub(super) picture: GrayImage,
     upright: OnceLock<Descriptions>,
     turned: OnceLock<Descriptions>,
-}
-
-pub fn milliseconds(start: Instant) -> f64 {
-    start.elapsed().as_secs_f64() * 1e3
 }
 
 impl FrameFeatures {
@@ -146,50 +139,4 @@ pub(super) fn match_pair(
 /// Turn of the picture about its axis.
 fn roll_rad(rotation: &UnitQuaternion<f64>) -> f64 {
     2.0 * rotation.k.atan2(rotation.w)
-}
-
-/// Matched pixels with their noise, owned.
-#[derive(Debug, Clone, Default)]
-pub struct PairPixels {
-    pub(super) pair: MatchedPair,
-    pub(super) sigma_px: Vec<f64>,
-}
-
-impl PairPixels {
-    pub(super) fn new(from: &[Feature], to: &[Feature], matches: impl Iterator<Item = (usize, usize)>) -> Self {
-        let mut pixels = PairPixels::default();
-        for (i, j) in matches {
-            pixels.pair.from_px.push(from[i].pixel_px);
-            pixels.pair.to_px.push(to[j].pixel_px);
-            pixels.sigma_px.push((0.5 * (from[i].sigma_px.powi(2) + to[j].sigma_px.powi(2))).sqrt());
-        }
-        pixels
-    }
-
-    /// Pixels of the same points, each with the 1σ of the second given the first.
-    pub(super) fn from_shared(points: &[SharedPoint]) -> Self {
-        let mut pixels = PairPixels::default();
-        for (from_px, to_px, sigma_px) in points {
-            pixels.pair.from_px.push(*from_px);
-            pixels.pair.to_px.push(*to_px);
-            pixels.sigma_px.push(sigma_px * std::f64::consts::FRAC_1_SQRT_2);
-        }
-        pixels
-    }
-
-    /// The same matches with the second pixels where the links put them.
-    pub(super) fn sharpened(&self, links: &[Option<Link>]) -> Self {
-        let mut pixels = self.clone();
-        for (i, link) in links.iter().enumerate() {
-            if let Some(link) = link {
-                pixels.pair.to_px[i] = link.to_px;
-                pixels.sigma_px[i] = link.sigma_px * std::f64::consts::FRAC_1_SQRT_2;
-            }
-        }
-        pixels
-    }
-
-    pub fn view(&self) -> PixelMatches<'_> {
-        PixelMatches { pair: &self.pair, sigma_px: &self.sigma_px }
-    }
 }

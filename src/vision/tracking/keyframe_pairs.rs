@@ -1,15 +1,15 @@
 //! Rotations of pictures further apart, through the tracks that they share.
 
 use super::image_chain::Chain;
-use super::image_features::PairPixels;
+use super::job::Job;
 use super::output_order::as_relative_rotation;
+use super::pair_pixels::PairPixels;
 use super::tracks::Tracks;
+use crate::observations::{PairStatus, RelativeRotation};
 use crate::vision::error::VisionError;
 use crate::vision::pair::{
     CenterProblem, CenteredPair, PairHints, PairSolution, relative_rotation, rotation_about_center,
 };
-use crate::vision::result::{PairStatus, RelativeRotation};
-use crate::vision::sequence::Job;
 use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 

@@ -5,14 +5,17 @@ mod ambiguous_pairs;
 mod coasted_tracks;
 mod image_chain;
 mod image_features;
+mod job;
 mod keyframe_pairs;
+mod link;
 mod output_order;
+mod pair_pixels;
 mod refined_match;
 mod tracks;
 
 pub use ambiguous_pairs::settle_rivals;
 pub use image_chain::{Chain, link};
-pub use image_features::milliseconds;
+pub use job::{Center, Job, milliseconds};
 pub use keyframe_pairs::keyframe_rotations;
 pub use output_order::rotations_in_order;
 pub use tracks::Tracks;

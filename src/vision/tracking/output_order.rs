@@ -1,9 +1,9 @@
 //! The rotations of a sequence in the order of the contract.
 
 use super::image_chain::Chain;
+use crate::observations::{PairStatus, RelativeRotation, RotationModel};
 use crate::vision::front_end::FrameReport;
 use crate::vision::pair::PairSolution;
-use crate::vision::result::{PairStatus, RelativeRotation, RotationModel};
 
 /// Adjacent pictures first, those that cannot be used included, by status; then pairs over the gaps that those leave, and
 /// keyframe pairs, together in order of time.

@@ -4,37 +4,16 @@
 //! as scale changes a corner wanders over the ground. Aligning the patch of the first picture, warped by the local affine
 //! map of the matches, with the second one is several times more exact and does not wander.
 
-use super::image_features::PairPixels;
-use crate::vision::config::KltConfig;
-use crate::vision::patch::{Affine, Match, fit_affine, refine_by_patch, refine_with_stretch};
+use super::link::{Link, Stretch};
+use super::pair_pixels::PairPixels;
+use crate::vision::patch::{Affine, KltConfig, Match, fit_affine, refine_by_patch, refine_with_stretch};
 use image::GrayImage;
-use nalgebra::{Matrix2, Vector2};
 use rayon::prelude::*;
 
 /// A patch that leads further than this from the matched corner follows something else, px.
 const FARTHEST_PX: f64 = 2.0;
 /// Fewest neighbours that give an affine map.
 const FEWEST: usize = 8;
-
-/// Where a feature of the first picture lies in the second one.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Link {
-    /// Pixel in the second picture.
-    pub(super) to_px: Vector2<f64>,
-    /// 1σ of each coordinate in px.
-    pub(super) sigma_px: f64,
-    /// How the picture is stretched about the feature, second by first.
-    pub(super) linear: Matrix2<f64>,
-}
-
-/// How patches are stretched before they are aligned.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stretch {
-    /// As the matches about them say.
-    OfMatches,
-    /// By their own grey levels too.
-    Own,
-}
 
 /// A link for each match that agrees with the motion; `None` where the patches do not settle it.
 pub(super) fn sharpen(

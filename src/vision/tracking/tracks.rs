@@ -1,30 +1,16 @@
 //! Verified matches chain into tracks, each of one surface point.
 
 use super::coasted_tracks::{Loose, Passage, carried_loose};
-use super::refined_match::Link;
+use super::link::{Link, SharedPoint, TrackPoint};
+use crate::observations::TrackObservation;
 use crate::vision::features::Feature;
 use crate::vision::matching::IndexMatch;
-use crate::vision::result::TrackObservation;
 use nalgebra::Vector2;
 
 /// 1σ of the first sight of a track, px: the point is whatever is there, so only later sights have errors.
 const FIRST_SIGMA_PX: f64 = 0.05;
 /// A track ends where its point and the corner that it is matched by have parted by this much, px.
 const PARTED_PX: f64 = 3.0;
-
-/// Where a track is in one picture.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct TrackPoint {
-    pub(super) number: u64,
-    pub(super) pixel_px: Vector2<f64>,
-    /// 1σ of the drift off the point of the first sight, px.
-    pub(super) sigma_px: f64,
-    /// Links so far that no matched corner made.
-    pub(super) followed: u32,
-}
-
-/// A point in two pictures, with the 1σ of the second pixel given the first, px.
-pub(super) type SharedPoint = (Vector2<f64>, Vector2<f64>, f64);
 
 /// Tracks that grow picture by picture. What is kept of each picture is what is reported of it.
 pub struct Tracks {

@@ -7,9 +7,8 @@
 //! others and the IMU. Errors that grow little by little never look so, since they meet the gate while they are small.
 
 use super::correct::Outcome;
-use crate::navigation::landing::config::FilterKind;
-use crate::navigation::landing::error_state::{ATTITUDE, BIASES, DescentEstimate};
-use crate::vision::TrackObservation;
+use crate::navigation::landing::error_state::{ATTITUDE, BIASES, DescentEstimate, FilterKind};
+use crate::observations::TrackObservation;
 
 /// Contradictions in a row after which a filter that may be wrong is taken to be.
 const PATIENCE: usize = 3;

@@ -1,12 +1,11 @@
 //! Correction by the bearings of one image.
 
-use super::innovation::{BearingInnovation, innovation, innovation_of};
+use super::innovation::{BearingInnovation, CorrectionModel, innovation, innovation_of};
 use super::measurement::{BearingObservation, KnownPoint};
-use crate::navigation::filter::{Gate, Innovation, iterated_correction};
-use crate::navigation::landing::config::FilterKind;
-use crate::navigation::landing::error_state::{DescentEstimate, DescentState, LARGEST};
-use crate::vision::TrackObservation;
-use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Vector2, Vector3};
+use crate::navigation::filter::{Innovation, iterated_correction};
+use crate::navigation::landing::error_state::{DescentEstimate, DescentState, FilterKind, LARGEST};
+use crate::observations::TrackObservation;
+use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Vector2};
 use smallvec::SmallVec;
 
 /// What became of one bearing.
@@ -34,21 +33,6 @@ pub struct Corrected {
     pub outcomes: Outcomes,
     /// Joint normalised innovation squared of what was used.
     pub normalized_innovation_squared: Option<f64>,
-}
-
-/// Constants of a correction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CorrectionModel {
-    /// Coordinates of the error.
-    pub kind: FilterKind,
-    /// Innovation gate.
-    pub gate: Gate,
-    /// Gauss–Newton steps.
-    pub iterations: usize,
-    /// Position of the camera in lander axes, m.
-    pub camera_in_lander_m: Vector3<f64>,
-    /// Whether the noise of a bearing counts what its curvature leaves unmodelled.
-    pub second_order: bool,
 }
 
 /// The estimate after one image: equations (11) to (18) of Li et al. 2023, each bearing gated by itself, the rest used

@@ -1,11 +1,10 @@
 //! The bearing of one point, linearised at an estimate.
 
-use super::correct::CorrectionModel;
 use super::measurement::BearingObservation;
 use crate::geometry::so3::tangent_basis;
-use crate::navigation::filter::Innovation;
+use crate::navigation::filter::{Gate, Innovation};
 use crate::navigation::landing::error_state::{
-    ATTITUDE, DescentEstimate, DescentState, LARGEST, POSITION, RelativeJacobian,
+    ATTITUDE, DescentEstimate, DescentState, FilterKind, LARGEST, POSITION, RelativeJacobian,
 };
 use crate::navigation::landmark::projector_over_range;
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
@@ -162,4 +161,19 @@ fn relative_covariance(estimate: &DescentEstimate, sight: &Sight) -> Matrix3<f64
         }
     }
     total
+}
+
+/// Constants of a correction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CorrectionModel {
+    /// Coordinates of the error.
+    pub kind: FilterKind,
+    /// Innovation gate.
+    pub gate: Gate,
+    /// Gauss–Newton steps.
+    pub iterations: usize,
+    /// Position of the camera in lander axes, m.
+    pub camera_in_lander_m: Vector3<f64>,
+    /// Whether the noise of a bearing counts what its curvature leaves unmodelled.
+    pub second_order: bool,
 }

@@ -1,9 +1,8 @@
 //! Bearings of landmarks, from pixels.
 
+use super::known_sighting::KnownSighting;
 use crate::geometry::{Camera, so3};
-use crate::navigation::landing::error_state::DescentState;
-use crate::navigation::landing::input::KnownSighting;
-use crate::vision::TrackObservation;
+use crate::observations::TrackObservation;
 use nalgebra::{Isometry3, Matrix2, Unit, Vector3};
 
 /// A surface point whose place a map tells.
@@ -86,19 +85,4 @@ impl CameraMount {
         let point = KnownPoint { position_in_site_m: sighting.point_in_site_m, sigma_m: sighting.sigma_point_m };
         Some(BearingObservation { known: Some(point), ..self.bearing(&observation, sigma_floor_px)? })
     }
-}
-
-/// Where a ray from the camera along `direction_in_lander` meets the height `height_m` (site frame, m), and how far
-/// along the ray that is, m; `None` if it does not fall by at least 1° or the camera is not above.
-pub fn ground_point(
-    state: &DescentState,
-    direction_in_lander: &Vector3<f64>,
-    camera_in_lander_m: &Vector3<f64>,
-    height_m: f64,
-) -> Option<(Vector3<f64>, f64)> {
-    let site_from_lander = state.lander_from_site.inverse();
-    let camera_in_site_m = state.lander_in_site_m + site_from_lander * camera_in_lander_m;
-    let u = site_from_lander * direction_in_lander;
-    let depth_m = (height_m - camera_in_site_m.z) / u.z;
-    (u.z < -1f64.to_radians().sin() && depth_m > 0.0).then(|| (camera_in_site_m + u * depth_m, depth_m))
 }

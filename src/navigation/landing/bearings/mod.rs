@@ -3,9 +3,11 @@
 mod contradiction;
 mod correct;
 mod innovation;
+mod known_sighting;
 mod measurement;
 
 pub use contradiction::Contradiction;
-pub use correct::{Corrected, CorrectionModel, Outcome, Outcomes, correct};
-pub use innovation::{BearingInnovation, innovation};
-pub use measurement::{BearingObservation, CameraMount, KnownPoint, ground_point};
+pub use correct::{Corrected, Outcome, Outcomes, correct};
+pub use innovation::{BearingInnovation, CorrectionModel, innovation};
+pub use known_sighting::KnownSighting;
+pub use measurement::{BearingObservation, CameraMount, KnownPoint};

@@ -4,11 +4,12 @@
 //! The bearing of a landmark depends on l - s alone and the motion on gravity alone, so that a turn about the vertical,
 //! which nothing observes, is exactly the third component of ψ and stays so.
 
-use super::coordinates::{LandmarkTransition, RayPoint, RelativeJacobian, Transition, part};
+use super::jacobian::{RayPoint, RelativeJacobian, part};
 use super::state::{ATTITUDE, BIASES, DescentState, POSITION, VELOCITY, WITH_BIASES};
+use super::state_core::Core;
+use super::transition::{LandmarkTransition, Transition};
 use crate::geometry::so3::{exp, hat};
 use crate::navigation::landing::inertial::{ImuIncrement, Planet};
-use crate::navigation::landing::propagation::Core;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 /// C⁺ = Ĉ exp(-ψ×), r⁺ = C⁺ᵀ (Ĉ r̂ + s̃), and the same for velocity and landmarks.

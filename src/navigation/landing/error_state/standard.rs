@@ -1,11 +1,12 @@
 //! The paper's error coordinates: r̃, ṽ and p̃ in site axes, δθ in lander axes with C = exp(-δθ×) Ĉ (Li et al. 2023,
 //! equation (5)). C is `lander_from_site`, the paper's C(q).
 
-use super::coordinates::{LandmarkTransition, RayPoint, RelativeJacobian, Transition, part};
+use super::jacobian::{RayPoint, RelativeJacobian, part};
 use super::state::{ATTITUDE, BIASES, DescentState, POSITION, VELOCITY, WITH_BIASES};
+use super::state_core::Core;
+use super::transition::{LandmarkTransition, Transition};
 use crate::geometry::so3::{exp, hat};
 use crate::navigation::landing::inertial::{ImuIncrement, Planet};
-use crate::navigation::landing::propagation::Core;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 /// r⁺ = r̂ + r̃, v⁺ = v̂ + ṽ, C⁺ = exp(-δθ×) Ĉ, p⁺ = p̂ + p̃.

@@ -1,5 +1,6 @@
 //! What the filter estimates.
 
+use crate::navigation::landing::inertial::ImuBiases;
 use nalgebra::{DMatrix, Isometry3, UnitQuaternion, Vector3};
 
 /// Start of the position's (or s̃'s) three components in the error state.
@@ -14,15 +15,6 @@ pub const BIASES: usize = 9;
 pub const WITH_BIASES: usize = 15;
 /// The largest error state: biases, the designated point, 50 landmarks or rays.
 pub const LARGEST: usize = WITH_BIASES + 3 * (1 + 2 * 50);
-
-/// Biases of an inertial measurement unit: what it measures too much, lander axes.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ImuBiases {
-    /// Bias of the gyroscope, rad/s.
-    pub gyroscope_rad_s: Vector3<f64>,
-    /// Bias of the accelerometer, m/s².
-    pub accelerometer_m_s2: Vector3<f64>,
-}
 
 /// What a point of the state stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -102,7 +94,7 @@ impl DescentState {
     }
 }
 
-/// A state with the covariance of its error, in the coordinates of one [`FilterKind`](crate::navigation::landing::config::FilterKind).
+/// A state with the covariance of its error, in the coordinates of one [`FilterKind`](super::filter_kind::FilterKind).
 #[derive(Debug, Clone, PartialEq)]
 pub struct DescentEstimate {
     /// The estimated state.

@@ -1,9 +1,9 @@
 //! IMU samples integrated between two times.
 
+use super::biases::ImuBiases;
 use crate::dataset::{ImuNoise, ImuSample};
 use crate::geometry::so3::{exp, hat, left_jacobian};
 use crate::navigation::landing::error::LandingError;
-use crate::navigation::landing::error_state::ImuBiases;
 use nalgebra::{Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
 
 /// Motion between two times as the IMU alone gives it, free of the initial state and of gravity.

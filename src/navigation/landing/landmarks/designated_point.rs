@@ -7,7 +7,7 @@ use crate::geometry::so3::tangent_basis;
 use crate::navigation::landing::bearings::{BearingObservation, CameraMount};
 use crate::navigation::landing::config::LandingConfig;
 use crate::navigation::landing::error_state::{DescentEstimate, UnknownLandmark};
-use crate::vision::TrackObservation;
+use crate::observations::TrackObservation;
 use nalgebra::{Matrix3, Vector3};
 
 /// The estimate with the designated point's uncertainty: the whole of it at its first sight, the drift later on.
@@ -69,8 +69,8 @@ fn with_exact_point(estimate: DescentEstimate) -> DescentEstimate {
 mod tests {
     use super::*;
     use crate::geometry::Camera;
-    use crate::navigation::landing::bearings::ground_point;
     use crate::navigation::landing::error_state::DescentState;
+    use crate::navigation::landing::error_state::ground_point;
     use nalgebra::{DMatrix, Isometry3, Matrix3x2, Translation3, UnitQuaternion, Vector2};
     use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -3,11 +3,12 @@
 use crate::dataset::InitialState;
 use crate::geometry::so3::tangent_basis;
 use crate::navigation::landing::bearings::BearingObservation;
-use crate::navigation::landing::config::{FilterKind, LandingConfig};
+use crate::navigation::landing::config::LandingConfig;
 use crate::navigation::landing::error_state::{
-    ATTITUDE, BIASES, DescentEstimate, DescentState, ImuBiases, LandmarkRole, POSITION, RayPoint, UnknownLandmark,
+    ATTITUDE, BIASES, DescentEstimate, DescentState, FilterKind, LandmarkRole, POSITION, RayPoint, UnknownLandmark,
     WITH_BIASES,
 };
+use crate::navigation::landing::inertial::ImuBiases;
 use crate::navigation::landmark::GroundPrior;
 use nalgebra::{DMatrix, Matrix3, Matrix3xX, SMatrix, Vector3};
 

@@ -9,8 +9,8 @@ use crate::navigation::landing::error_state::{DescentEstimate, LandmarkRole};
 use crate::navigation::landing::inertial::ImuIncrement;
 use crate::navigation::landing::step::Navigator;
 use crate::navigation::landmark::{Candidate, Viewpoint, choose};
+use crate::observations::TrackObservation;
 use crate::stats::random_stream;
-use crate::vision::TrackObservation;
 use nalgebra::{Rotation3, Unit, Vector3};
 use std::f64::consts::TAU;
 

@@ -39,7 +39,7 @@ pub fn survives(
 ) -> bool {
     let camera_in_lander_m = mount.camera_in_lander_m();
     let z = bearing.direction_in_lander.into_inner();
-    let Some((point_m, _)) = crate::navigation::landing::bearings::ground_point(state, &z, &camera_in_lander_m, 0.0)
+    let Some((point_m, _)) = crate::navigation::landing::error_state::ground_point(state, &z, &camera_in_lander_m, 0.0)
     else {
         return false;
     };

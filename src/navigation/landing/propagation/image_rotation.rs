@@ -1,24 +1,10 @@
 //! The rotation between two images as a check of the gyroscope, or as a measurement.
 
 use crate::geometry::so3::{exp, log};
-use crate::navigation::landing::config::FilterKind;
-use crate::navigation::landing::error_state::{BIASES, DescentEstimate};
+use crate::navigation::landing::error_state::{BIASES, DescentEstimate, FilterKind};
 use crate::navigation::landing::inertial::ImuIncrement;
-use nalgebra::{Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
-use serde::{Deserialize, Serialize};
-
-/// What is done with the rotations that images tell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ImageRotationUse {
-    /// They are compared with the gyroscope's; the estimate does not depend on them.
-    #[default]
-    Check,
-    /// They correct the gyroscope's, or its bias where biases are estimated.
-    Measure,
-    /// Nothing.
-    Ignore,
-}
+use crate::observations::{PairStatus, RelativeRotation};
+use nalgebra::{Isometry3, Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
 
 /// The lander's rotation between two images, as the images tell it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,4 +90,30 @@ impl ImuIncrement {
             ..self.clone()
         }
     }
+}
+
+/// The rotations between adjacent frames in lander axes, by the time of the second: the usable ones among `rotations`, of
+/// frames at `frame_times_ns` in order of time.
+pub fn image_rotations(
+    rotations: &[RelativeRotation],
+    frame_times_ns: &[i64],
+    lander_from_camera: &Isometry3<f64>,
+) -> Vec<ImageRotation> {
+    let mount = lander_from_camera.rotation;
+    let turn = mount.to_rotation_matrix().into_inner();
+    let adjacent =
+        |r: &&RelativeRotation| frame_times_ns.windows(2).any(|pair| (pair[0], pair[1]) == (r.t_ns_from, r.t_ns_to));
+    let usable = rotations.iter().filter(|r| r.status == PairStatus::Ok);
+    let mut rotations: Vec<ImageRotation> = usable
+        .filter(adjacent)
+        .map(|r| ImageRotation {
+            from_t_ns: r.t_ns_from,
+            to_t_ns: r.t_ns_to,
+            after_from_before: mount * r.camera_to_from_camera_from * mount.inverse(),
+            covariance_rad2: turn * r.covariance_rad2 * turn.transpose(),
+        })
+        .collect();
+    rotations.sort_by_key(|r| r.to_t_ns);
+    rotations.dedup_by_key(|r| r.to_t_ns);
+    rotations
 }

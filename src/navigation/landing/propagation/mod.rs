@@ -4,5 +4,5 @@ mod covariance;
 mod image_rotation;
 mod predict;
 
-pub use image_rotation::{ImageRotation, ImageRotationUse, RotationCheck};
-pub use predict::{Core, predict};
+pub use image_rotation::{ImageRotation, RotationCheck, image_rotations};
+pub use predict::predict;

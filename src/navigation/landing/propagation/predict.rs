@@ -1,8 +1,7 @@
 //! Prediction by the IMU.
 
 use super::covariance::propagate;
-use crate::navigation::landing::config::FilterKind;
-use crate::navigation::landing::error_state::{DescentEstimate, DescentState};
+use crate::navigation::landing::error_state::{Core, DescentEstimate, DescentState, FilterKind};
 use crate::navigation::landing::inertial::{ImuIncrement, Planet};
 
 /// The estimate after an increment: equations (1), (2) and (6) of Li et al. 2023, integrated between two images.
@@ -18,28 +17,6 @@ pub fn predict(
     let transition = kind.transition(&core, &state, increment, planet);
     propagate(&mut covariance, &transition, increment);
     DescentEstimate { state, covariance }
-}
-
-/// The lander's part of a state, which a transition starts from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Core {
-    /// Position r in the site frame, m.
-    pub lander_in_site_m: nalgebra::Vector3<f64>,
-    /// Velocity v in the site frame, m/s.
-    pub lander_velocity_in_site_m_s: nalgebra::Vector3<f64>,
-    /// Attitude.
-    pub lander_from_site: nalgebra::UnitQuaternion<f64>,
-}
-
-impl Core {
-    /// That part of a state.
-    pub fn of(state: &DescentState) -> Self {
-        Core {
-            lander_in_site_m: state.lander_in_site_m,
-            lander_velocity_in_site_m_s: state.lander_velocity_in_site_m_s,
-            lander_from_site: state.lander_from_site,
-        }
-    }
 }
 
 /// With u = v + ω×r, the velocity in axes that do not turn, and E = exp(ω T): r' = r_i + u_i T + ½ g T² + C_iᵀ Δp,

@@ -1,6 +1,6 @@
 //! What the best estimator could reach on an arc: the Cramér–Rao bound of pairs of pictures.
 
-use super::determinacy::{UndeterminedDirection, undetermined_directions};
+use super::determinacy::{UndeterminedDirection, scaled_units, undetermined_directions};
 use crate::navigation::observability::FisherInformation;
 use crate::navigation::tumbling::motion::{InertiaRatios, SpinState, TrajectoryPoint, propagate};
 use nalgebra::{DMatrix, UnitQuaternion, Vector3};
@@ -98,13 +98,6 @@ pub fn arc_bound(
         information: scaled.eigenvalues(),
         pairs: pairs.len(),
     })
-}
-
-/// |ω| for the rate and 0.3 for the ratios.
-pub(super) fn scaled_units(speed_rad_s: f64) -> [f64; 8] {
-    let mut units = [super::determinacy::INERTIA_UNIT; 8];
-    units[..3].fill(speed_rad_s);
-    units
 }
 
 fn pair_information(points: &[TrajectoryPoint], pairs: &[(usize, usize)], sigma_rad: f64) -> FisherInformation {

@@ -1,6 +1,5 @@
 //! Which directions of the inertia an arc determines.
 
-use super::arc_bound::scaled_units;
 use crate::navigation::observability::{FisherInformation, WeakDirection};
 use crate::navigation::tumbling::motion::INERTIA_NAMES;
 use nalgebra::{DMatrix, SMatrix, SVector};
@@ -72,4 +71,11 @@ fn name_of(direction: &[f64; 5]) -> String {
         .map(|(c, name)| format!("{:+.2} {name}", c * largest.signum()))
         .collect();
     parts.join(" ")
+}
+
+/// |ω| for the rate and 0.3 for the ratios.
+pub(super) fn scaled_units(speed_rad_s: f64) -> [f64; 8] {
+    let mut units = [INERTIA_UNIT; 8];
+    units[..3].fill(speed_rad_s);
+    units
 }

@@ -6,11 +6,11 @@ use crate::geometry::so3::log;
 use crate::navigation::tumbling::bounds::{INERTIA_UNIT, UndeterminedDirection, weak_ratios};
 use crate::navigation::tumbling::config::TumblingConfig;
 use crate::navigation::tumbling::error::TumblingError;
-use crate::navigation::tumbling::estimate::{seconds, shooting_epochs, symmetric};
+use crate::navigation::tumbling::estimate::symmetric;
 use crate::navigation::tumbling::motion::{InertiaRatios, SpinState, propagate};
 use crate::navigation::tumbling::pair::RotationPair;
 use crate::navigation::tumbling::result::{InertiaKnowledge, PairCount, TumblingEpoch, TumblingResult};
-use crate::navigation::tumbling::shooting::{ShootingFit, shoot};
+use crate::navigation::tumbling::shooting::{ShootingFit, seconds, shoot, shooting_epochs};
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, UnitQuaternion, Vector3, Vector6};
 
 /// Size of (attitude error in inertial axes, rate error, ratio errors).

@@ -2,6 +2,7 @@
 
 mod obj;
 mod ply;
+mod read;
 mod shape;
 mod stl;
 mod welder;

@@ -2,7 +2,7 @@
 //!
 //! Source: OGC 19-008r4, "GeoTIFF standard 1.1", 2019, annex B.
 
-use crate::scene::elevation::raster::FileGeoreference;
+use super::file_raster::FileGeoreference;
 
 /// The directory of keys.
 #[derive(Debug)]

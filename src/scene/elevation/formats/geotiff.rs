@@ -1,7 +1,7 @@
 //! Rasters from TIFF files, with their place on the map if they are GeoTIFF files.
 
+use super::file_raster::{FileGeoreference, FileRaster, MOST_POSTS, too_many};
 use super::geokeys::GeoKeys;
-use crate::scene::elevation::raster::{FileGeoreference, FileRaster, MOST_POSTS, too_many};
 use std::io::Cursor;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;

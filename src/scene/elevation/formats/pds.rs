@@ -1,9 +1,9 @@
 //! Rasters from images of the Planetary Data System, version 3, with an attached or a detached label.
 
+use super::file_raster::FileRaster;
 use super::pds_label::Label;
 use super::pds_map::georeference;
 use super::raw_samples::{RawLayout, SampleKind};
-use crate::scene::elevation::raster::FileRaster;
 use crate::scene::error::SceneError;
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! The map of a PDS image.
 
+use super::file_raster::FileGeoreference;
 use super::pds_label::Label;
-use crate::scene::elevation::raster::FileGeoreference;
 
 /// Where the posts lie; `None` if the label describes no map.
 ///

@@ -1,6 +1,6 @@
 //! Rasters from PNG and JPEG pictures.
 
-use crate::scene::elevation::raster::FileRaster;
+use super::file_raster::FileRaster;
 use image::DynamicImage;
 
 /// Grey values of a picture, 0 to 255 or 0 to 65535 as the file has them; colours become luma.

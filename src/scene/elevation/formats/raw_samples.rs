@@ -1,6 +1,6 @@
 //! Samples as they stand in a file without a header of its own.
 
-use crate::scene::elevation::raster::{MOST_POSTS, too_many};
+use super::file_raster::{MOST_POSTS, too_many};
 use crate::scene::error::SceneError;
 use crate::settings::limits;
 use schemars::JsonSchema;

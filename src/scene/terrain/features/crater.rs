@@ -9,18 +9,8 @@ use super::bins::Bounded;
 use super::scatter::{Feature, Scatter};
 use super::site_taper::at_most;
 use super::softened::Spreadable;
+use crate::scene::terrain::relief::FeatureSample;
 use nalgebra::Vector2;
-
-/// Height, gradient and relative albedo that features add at a place.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct FeatureSample {
-    /// Height in m.
-    pub height_m: f64,
-    /// Gradient of the height.
-    pub gradient: Vector2<f64>,
-    /// Relative change of the albedo.
-    pub albedo: f64,
-}
 
 /// Craters of one octave of diameters.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,10 +1,10 @@
 //! Hummocks: low rounded knobs that crowd in patches of rough ground and leave the plains between them smooth.
 
 use super::bins::Bounded;
-use super::crater::FeatureSample;
 use super::scatter::{Feature, Scatter};
 use super::site_taper::at_most;
 use super::softened::Spreadable;
+use crate::scene::terrain::relief::FeatureSample;
 use nalgebra::Vector2;
 
 /// Hummocks of one octave of diameters.

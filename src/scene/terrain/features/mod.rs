@@ -14,10 +14,10 @@ mod unit;
 
 pub use bins::Bins;
 pub use classes::TerrainFeatures;
-pub use crater::{Crater, CraterClass, FeatureSample};
+pub use crater::{Crater, CraterClass};
 pub use hummock::{Hummock, HummockClass};
 pub use ripple::{RippleClass, RippleTables};
 pub use rock::{Rock, RockClass, rock_density_1_m2};
 pub use scatter::{Feature, Scatter};
 pub use softened::Softened;
-pub use unit::{DISPLACEMENT, UnitClass};
+pub use unit::UnitClass;

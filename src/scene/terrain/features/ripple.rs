@@ -1,9 +1,8 @@
 //! Ripples: patches of wind-blown sand in parallel waves with rounded troughs and narrower crests.
 
-use super::crater::FeatureSample;
 use super::site_taper::grown_from_site;
 use crate::scene::noise::{NOISE_2D_STEEPEST, NoiseOctave, NoiseTable};
-use crate::scene::terrain::terrain::GroundDetail;
+use crate::scene::terrain::relief::{FeatureSample, GroundDetail};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 

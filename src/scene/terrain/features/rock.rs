@@ -1,9 +1,9 @@
 //! Rocks: blocks with steep sides that stand in the ground, numbered by Golombek's law.
 
 use super::bins::Bounded;
-use super::crater::FeatureSample;
 use super::scatter::{Feature, Scatter};
 use super::site_taper::at_most;
+use crate::scene::terrain::relief::FeatureSample;
 use crate::scene::terrain::terrain::Terrain;
 use nalgebra::{Matrix2, Rotation2, Vector2};
 

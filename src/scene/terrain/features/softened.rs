@@ -4,7 +4,7 @@
 //! elsewhere again when finer details are evaluated. Spread over more ground and as much weaker, they keep its place.
 
 use super::bins::Bounded;
-use super::crater::FeatureSample;
+use crate::scene::terrain::relief::FeatureSample;
 use nalgebra::Vector2;
 
 /// Radius of the spread over the size of the details.

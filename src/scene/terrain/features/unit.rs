@@ -3,11 +3,9 @@
 //! A unit is where a field of noise is positive. The field is scaled to about the distance from the contact in m, and
 //! displaced by the albedo fields of the finer octaves, so that contacts are ragged at every scale.
 
-use super::crater::FeatureSample;
 use super::site_taper::grown_from_site;
 use crate::scene::noise::{NOISE_2D_STEEPEST, NoiseOctave, NoiseTable};
-use crate::scene::terrain::relief::OctaveSums;
-use crate::scene::terrain::terrain::GroundDetail;
+use crate::scene::terrain::relief::{FeatureSample, GroundDetail, OctaveSums};
 use nalgebra::Vector2;
 
 /// One size of geological units.
@@ -31,8 +29,6 @@ pub struct UnitClass {
 
 /// Distance from the contact over wavelength and field, for the field's r.m.s. slope.
 const DISTANCE_PER_FIELD: f64 = 1.4;
-/// Displacement of a contact by an octave, over its wavelength and albedo field.
-pub const DISPLACEMENT: f64 = 0.5;
 /// Octaves of at most this share of the units' wavelength displace contacts.
 pub(super) const LARGEST_DISPLACING: f64 = 0.45;
 /// Half-width of a scarp over its height: slopes of about 30°.

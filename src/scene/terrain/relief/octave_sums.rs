@@ -1,8 +1,8 @@
 //! What the octaves of fractal ground add up to at one place: relief, albedo, and how far contacts are displaced.
 
+use super::ground_sample::{GroundDetail, GroundSample};
 use crate::scene::noise::{NOISE_2D_STEEPEST, NoiseOctave, NoiseTable};
-use crate::scene::terrain::features::DISPLACEMENT;
-use crate::scene::terrain::terrain::{GroundDetail, GroundSample, Terrain};
+use crate::scene::terrain::terrain::Terrain;
 use nalgebra::Vector2;
 
 fn visibility(wavelength_m: f64, footprint_m: f64) -> f64 {
@@ -124,3 +124,6 @@ impl<'a> OctaveSums<'a> {
             .sum()
     }
 }
+
+/// Displacement of a contact by an octave, over its wavelength and albedo field.
+pub const DISPLACEMENT: f64 = 0.5;

@@ -14,7 +14,8 @@
 use super::cluster_robust::{cells, covariance_of_rotation};
 use super::correlated_modes::{COEFFICIENTS, Places, variance};
 use crate::vision::pair::normalized_match::Sight;
-use crate::vision::pair::robust_fit::{Loss, PairFit, PairModel, Relation, linearized, observed_information, residual};
+use crate::vision::pair::residual::{PairModel, Relation, linearized, residual};
+use crate::vision::pair::robust_fit::{Loss, PairFit, observed_information};
 use nalgebra::{Matrix3, SMatrix, SVector};
 
 /// Width of the logarithm of the share about what is expected.

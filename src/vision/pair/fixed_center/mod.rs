@@ -1,6 +1,8 @@
 //! Rotations about a fixed centre: a body that turns before a resting camera.
 
+mod problem;
 mod solve;
 mod start;
 
-pub use solve::{CenterProblem, CenterSolution, CenteredPair, rotation_about_center, rotations_about_center};
+pub use problem::{CenterProblem, CenterSolution, CenteredPair};
+pub use solve::{rotation_about_center, rotations_about_center};

@@ -4,57 +4,20 @@
 //! `E(R) = [(I - R) T]× R`: the scale cancels, and a narrow field of view determines `R` where a free translation would
 //! not. The centre starts at the centroid of the bright silhouette and is refined over all pairs at once.
 
+use super::problem::{CenterProblem, CenterSolution, CenteredPair};
 use super::start::{CenterView, best_start, is_near_side};
-use crate::geometry::{Camera, so3};
-use crate::vision::config::{FixedCenterConfig, RotationConfig};
+use crate::geometry::so3;
+use crate::observations::{PairStatus, RotationModel};
+use crate::vision::pair::config::FixedCenterConfig;
 use crate::vision::pair::covariance::{COEFFICIENTS, Size, White, refine, spread};
 use crate::vision::pair::models::{AboutCenter, WithCenter};
-use crate::vision::pair::relative_rotation::{PairSolution, PixelMatches};
 use crate::vision::pair::robust_fit::{Loss, cost, fit, observed_information};
-use crate::vision::result::{PairStatus, RotationModel};
-use nalgebra::{
-    Matrix2, Matrix2x3, Matrix2x5, Matrix3, Matrix3x2, Matrix5, SMatrix, Unit, UnitQuaternion, Vector2, Vector3,
-};
+use crate::vision::pair::solution::PairSolution;
+use nalgebra::{Matrix2, Matrix2x3, Matrix2x5, Matrix3, Matrix3x2, Matrix5, SMatrix, Unit, Vector2, Vector3};
 use rayon::prelude::*;
 
 /// Variance of smooth errors over what residuals show (fitted to bodies rendered with known motion).
 const OVER_LIKELIEST: f64 = 2.0;
-
-/// A pair of pictures of the body.
-#[derive(Debug, Clone, Copy)]
-pub struct CenteredPair<'a> {
-    /// The matched pixels.
-    pub matches: PixelMatches<'a>,
-    /// Time between the pictures, s.
-    pub dt_s: f64,
-    /// Predicted rotation, where there is one.
-    pub predicted: Option<UnitQuaternion<f64>>,
-}
-
-/// Rotations of all pairs, and the centre that they share.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CenterSolution {
-    /// Direction of the centre in the camera.
-    pub center_in_camera: Unit<Vector3<f64>>,
-    /// Its covariance (rad²) along the axes of [`so3::tangent_basis`]. The part of the rotations' errors that it causes
-    /// is common to all pairs.
-    pub center_covariance_rad2: Matrix2<f64>,
-    /// One solution a pair.
-    pub pairs: Vec<PairSolution>,
-}
-
-/// Everything that the solver needs besides the pairs.
-#[derive(Debug, Clone, Copy)]
-pub struct CenterProblem<'a> {
-    /// The camera.
-    pub camera: &'a Camera,
-    /// First guess of the centre's direction.
-    pub center_guess: Unit<Vector3<f64>>,
-    /// The fixed-centre model's parameters.
-    pub config: &'a FixedCenterConfig,
-    /// Thresholds.
-    pub rotation: &'a RotationConfig,
-}
 
 /// Solves all pairs of a sequence; pairs in time order, so that the rate gate can compare neighbours.
 ///

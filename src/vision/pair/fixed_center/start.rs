@@ -1,16 +1,16 @@
 //! Starts of the fixed-centre model: many rotations are tried, and those that put the surface behind the camera or
 //! beyond the centre are refused.
 
-use super::solve::{CenterProblem, CenteredPair};
+use super::problem::{CenterProblem, CenteredPair};
 use crate::geometry::so3;
-use crate::vision::config::RotationConfig;
+use crate::observations::PairStatus;
 use crate::vision::pair::cheirality::Cheirality;
+use crate::vision::pair::config::RotationConfig;
 use crate::vision::pair::models::AboutCenter;
 use crate::vision::pair::normalized_match::{Sight, sights};
 use crate::vision::pair::parallax_gate::plausible;
 use crate::vision::pair::robust_fit::{Loss, cost, descend, fit};
 use crate::vision::pair::usac;
-use crate::vision::result::PairStatus;
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 /// A pair ready to be solved.

@@ -4,7 +4,7 @@ use super::model::Ground;
 use crate::geometry::so3::hat;
 use crate::vision::pair::models::General;
 use crate::vision::pair::normalized_match::Sight;
-use crate::vision::pair::robust_fit::{Relation, residual};
+use crate::vision::pair::residual::{Relation, residual};
 use nalgebra::{Matrix3, Unit, Vector2, Vector3};
 
 /// Median of |r| over σ for one residual.

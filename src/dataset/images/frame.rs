@@ -1,0 +1,14 @@
+//! One image of a sequence.
+
+use std::path::PathBuf;
+
+/// One picture of a sequence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// Position in the sequence, from 0.
+    pub index: usize,
+    /// Time in ns.
+    pub t_ns: i64,
+    /// The picture's file.
+    pub path: PathBuf,
+}

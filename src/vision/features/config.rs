@@ -1,0 +1,46 @@
+//! Settings of the detector.
+
+use serde::{Deserialize, Serialize};
+
+/// Harris detection.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DetectorConfig {
+    /// Most features a picture (default 1000).
+    pub max_features: usize,
+    /// Gaussian smoothing before detection, 1σ in px (default 1.0).
+    pub smoothing_sigma_px: f64,
+    /// Gaussian smoothing of the response, 1σ in px (default 0.8).
+    pub response_sigma_px: f64,
+    /// Side of the window that gathers the structure tensor, px (default 5).
+    pub block_px: u32,
+    /// Harris' trace factor k (default 0.04).
+    pub harris_k: f64,
+    /// Least response as a fraction of the strongest (default 1e-5); noise is refused by `max_sigma_px`.
+    pub min_response_ratio: f64,
+    /// Least distance between features, px (default 5).
+    pub min_distance_px: f64,
+    /// Features closer to the picture's edge are dropped, px (default 16).
+    pub border_px: u32,
+    /// Peaks of the response with a greater width are too blunt to be found again at the same place, px (default 2.2).
+    pub max_peak_width_px: f64,
+    /// Features with a greater predicted 1σ are dropped, px (default 0.4).
+    pub max_sigma_px: f64,
+}
+
+impl Default for DetectorConfig {
+    fn default() -> Self {
+        DetectorConfig {
+            max_features: 1000,
+            smoothing_sigma_px: 1.0,
+            response_sigma_px: 0.8,
+            block_px: 5,
+            harris_k: 0.04,
+            min_response_ratio: 1e-5,
+            min_distance_px: 5.0,
+            border_px: 16,
+            max_peak_width_px: 2.2,
+            max_sigma_px: 0.4,
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Settings of a pair's rotation.
+
+use serde::{Deserialize, Serialize};
+
+/// Rotation between two pictures.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RotationConfig {
+    /// Inlier threshold of the first robust estimate, px (default 1.5).
+    pub threshold_px: f64,
+    /// Nominal 1σ of a pixel where none is given, px (default 0.3). The fit estimates its own scale from it.
+    pub sigma_px: f64,
+    /// Fewest matches to try, and fewest inliers to accept (default 20).
+    pub min_matches: usize,
+    /// Least fraction of the matches that must agree (default 0.3).
+    pub min_inlier_ratio: f64,
+    /// Greatest 1σ of the rotation about any axis that is still a determined rotation, rad (default 0.02).
+    pub max_sigma_rad: f64,
+    /// Greatest rotation between two pictures, rad (default 1.0); the twisted solution lies near π.
+    pub max_angle_rad: f64,
+    /// 1σ of a predicted rotation, rad (default 0.005).
+    pub prior_sigma_rad: f64,
+    /// Variance of errors that vary smoothly over the picture, as a share of the noise's (default 0.0007). It grows with
+    /// the square of the translation over the distance: the looks of ground change with the view. 0 where pixels err by
+    /// white noise alone, as simulated ones do.
+    pub smooth_error_share: f64,
+    /// Seed of the random samples (default 1).
+    pub seed: u64,
+}
+
+impl Default for RotationConfig {
+    fn default() -> Self {
+        RotationConfig {
+            threshold_px: 1.5,
+            sigma_px: 0.3,
+            min_matches: 20,
+            min_inlier_ratio: 0.3,
+            max_sigma_rad: 0.02,
+            max_angle_rad: 1.0,
+            prior_sigma_rad: 0.005,
+            smooth_error_share: 0.0007,
+            seed: 1,
+        }
+    }
+}
+
+/// The fixed-centre model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FixedCenterConfig {
+    /// 1σ of the first guess of the centre's direction (the centroid of the bright silhouette), rad (default 0.05).
+    pub center_sigma_rad: f64,
+    /// Width of the band along the limb and the terminator where no feature is taken, px (default 8).
+    pub limb_margin_px: u32,
+    /// A rate this far from the running median is suspect, rad/s (default 1°/s)…
+    pub rate_gate_rad_s: f64,
+    /// …or this fraction of the median, whichever is greater (default 0.2).
+    pub rate_gate_ratio: f64,
+    /// Variance of errors that vary smoothly over the picture, as a share of the noise's (default 0.0018): the light moves
+    /// over a body that turns.
+    pub smooth_error_share: f64,
+    /// Whether a patch's stretch from picture to picture is refined by its own grey levels (default true): a body's surface
+    /// turns away within a few matches, and patches that are askew err alike.
+    pub stretch_patches: bool,
+}
+
+impl Default for FixedCenterConfig {
+    fn default() -> Self {
+        FixedCenterConfig {
+            center_sigma_rad: 0.05,
+            limb_margin_px: 8,
+            rate_gate_rad_s: 1f64.to_radians(),
+            rate_gate_ratio: 0.2,
+            smooth_error_share: 0.0018,
+            stretch_patches: true,
+        }
+    }
+}
