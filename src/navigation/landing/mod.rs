@@ -36,7 +36,7 @@ pub use inertial::{
 };
 pub use input::LandingInput;
 pub use landmarks::{
-    InitializationModel, LookAhead, initial_estimate, survives, triangulated, viewpoint, with_landmark,
+    InitializationModel, LookAhead, Memory, initial_estimate, survives, triangulated, viewpoint, with_landmark,
     with_landmark_at_height, with_ray, without_landmark,
 };
 pub use map_aiding::{PointByMap, SightedByMap, sighted_by_map};

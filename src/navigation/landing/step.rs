@@ -5,11 +5,10 @@ use super::config::{ImageRotationUse, LandingConfig};
 use super::error_state::DescentEstimate;
 use super::inertial::{ImuBiases, ImuIncrement};
 use super::landmarks::{
-    Selection, initial_estimate, with_chosen, with_designated_errors, with_triangulated, without_lost,
+    Memory, Selection, initial_estimate, with_chosen, with_designated_errors, with_triangulated, without_lost,
 };
 use super::propagation::{ImageRotation, RotationCheck, predict};
 use crate::dataset::InitialState;
-use std::collections::BTreeSet;
 
 /// What is carried from image to image.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,10 +19,8 @@ pub struct Navigator {
     pub corrected: bool,
     /// Contradictions with the known landmark.
     pub contradiction: Contradiction,
-    /// Tracks that have been landmarks before: their ground height must not be counted twice.
-    pub spent_tracks: BTreeSet<u64>,
-    /// Number of images so far.
-    pub images: u64,
+    /// What the choice of landmarks remembers.
+    pub memory: Memory,
 }
 
 impl Navigator {
@@ -33,8 +30,7 @@ impl Navigator {
             estimate: initial_estimate(initial, config),
             corrected: false,
             contradiction: Contradiction::default(),
-            spent_tracks: BTreeSet::new(),
-            images: 0,
+            memory: Memory::default(),
         }
     }
 
@@ -82,7 +78,7 @@ pub fn step(
     mount: &CameraMount,
     config: &LandingConfig,
 ) -> Option<(Navigator, StepReport)> {
-    let Navigator { estimate, corrected, contradiction, spent_tracks, images } = navigator;
+    let Navigator { estimate, corrected, contradiction, memory } = navigator;
     let rotation_check = checked(frame, config);
     let (estimate, increment) = with_image_rotation(estimate, frame, config);
     let predicted = predict(estimate, &increment, &config.planet(), config.filter);
@@ -98,13 +94,17 @@ pub fn step(
         estimate: result.estimate,
         corrected: corrected || report.used() > 0,
         contradiction: contradiction.after(&report.outcomes),
-        spent_tracks,
-        images: images + 1,
+        memory: Memory { images: memory.images + 1, ..memory },
     };
     if after.corrected && !bearings.is_empty() {
-        without_lost(&mut after, bearings);
-        with_triangulated(&mut after, bearings, mount, config);
-        with_chosen(&mut after, bearings, &Selection { increment: &increment, mount, config });
+        without_lost(&mut after.estimate, bearings);
+        with_triangulated(&mut after.estimate, bearings, mount, config);
+        with_chosen(
+            &mut after.estimate,
+            &mut after.memory,
+            bearings,
+            &Selection { increment: &increment, mount, config },
+        );
     }
     Some((after, report))
 }

@@ -2,11 +2,9 @@
 
 mod gradient_noise;
 mod octave;
-mod table;
 
 pub use gradient_noise::{
     NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_2D_STEEPEST, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseSample,
     noise_2d, noise_3d, pcg2d,
 };
-pub use octave::{NoiseOctave, OctaveStrength};
-pub use table::NoiseTable;
+pub use octave::{NoiseOctave, NoiseTable, OctaveStrength};

@@ -7,6 +7,7 @@ mod on_base;
 mod patch;
 mod ray;
 mod relief;
+mod rocks;
 mod terrain;
 
 pub use config::{TerrainConfig, TerrainConfigError};

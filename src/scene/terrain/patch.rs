@@ -34,7 +34,7 @@ impl Terrain {
         let table = |octave: &_| NoiseTable::covering(octave, low_m, high_m);
         let shown = self.octaves().iter().take_while(|o| o.wavelength_m >= detail.height_m);
         let (middle, within_m) = (0.5 * (low_m + high_m), 0.5001 * (high_m - low_m).norm());
-        let ground = OctaveSums::new(self, &[], &middle, detail);
+        let ground = OctaveSums::new(&self.octave_source(&[]), &middle, detail);
         let unit_table = |unit: &UnitClass| match unit.side_around(within_m, &ground, detail) {
             Some(side) => UnitTable::Side(side),
             None => UnitTable::Crossed(table(&unit.field)),
@@ -83,7 +83,7 @@ impl TerrainPatch<'_> {
         for (class, [cover, bend]) in &self.ripples {
             class.add_to(&mut features, &at, ([cover.as_ref(), bend.as_ref()], &self.detail));
         }
-        let ground = OctaveSums::new(self.terrain, &self.octaves, &at, &self.detail);
+        let ground = OctaveSums::new(&self.terrain.octave_source(&self.octaves), &at, &self.detail);
         for (class, table) in &self.units {
             match table {
                 UnitTable::Side(side) => class.add_side_to(&mut features, &at, (*side, &self.detail)),

@@ -3,8 +3,8 @@
 use super::config::TerrainConfig;
 use super::features::{CraterClass, HummockClass, RippleClass, Softened, TerrainFeatures, UnitClass};
 use super::measured_base::GroundBase;
-use super::relief::{FeatureSample, GroundDetail, GroundSample, OctaveSums};
-use crate::scene::noise::{NoiseOctave, OctaveStrength};
+use super::relief::{FeatureSample, GroundDetail, GroundSample, OctaveSource, OctaveSums};
+use crate::scene::noise::{NoiseOctave, NoiseTable, OctaveStrength};
 use crate::scene::photometry::Photometry;
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -81,7 +81,7 @@ impl Terrain {
             class.scatter.near(x_m, y_m).for_each(|f| shown(f).add_to(&mut features, &at));
         }
         self.ripples(detail).for_each(|class| class.add_to(&mut features, &at, ([None, None], detail)));
-        let ground = OctaveSums::new(self, &[], &at, detail);
+        let ground = OctaveSums::new(&self.octave_source(&[]), &at, detail);
         self.units(detail).for_each(|class| class.add_to(&mut features, &at, (None, detail), &ground));
         let mut tallest = FeatureSample::default();
         for class in self.rock_classes(detail.rock_m) {
@@ -89,6 +89,11 @@ impl Terrain {
             rocks.for_each(|f| class.rock(&f).raise(&mut tallest, &at));
         }
         self.with_features(&ground, &features).under(&tallest)
+    }
+
+    /// What the fractal relief is added up of; `tables` are the lattices of its first octaves.
+    pub(super) fn octave_source<'a>(&'a self, tables: &'a [Option<NoiseTable>]) -> OctaveSource<'a> {
+        OctaveSource { octaves: &self.octaves, base: self.base.as_deref(), tables }
     }
 
     /// The fractal relief with features on it.

@@ -9,5 +9,5 @@ mod visibility;
 pub use delayed_start::{triangulated, with_ray};
 pub use designated_point::with_designated_errors;
 pub use initialize::{InitializationModel, initial_estimate, with_landmark, with_landmark_at_height, without_landmark};
-pub use select::{Selection, with_chosen, with_triangulated, without_lost};
+pub use select::{Memory, Selection, with_chosen, with_triangulated, without_lost};
 pub use visibility::{LookAhead, survives, viewpoint};

@@ -7,12 +7,21 @@ use crate::navigation::landing::bearings::{BearingObservation, CameraMount};
 use crate::navigation::landing::config::{LandingConfig, LandmarkStart};
 use crate::navigation::landing::error_state::{DescentEstimate, LandmarkRole};
 use crate::navigation::landing::inertial::ImuIncrement;
-use crate::navigation::landing::step::Navigator;
 use crate::navigation::landmark::{Candidate, Viewpoint, choose};
 use crate::observations::TrackObservation;
 use crate::stats::random_stream;
 use nalgebra::{Rotation3, Unit, Vector3};
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
+
+/// What the choice of landmarks remembers from image to image.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Memory {
+    /// Tracks that have been landmarks before: their ground height must not be counted twice.
+    pub spent_tracks: BTreeSet<u64>,
+    /// Number of images so far.
+    pub images: u64,
+}
 
 /// The bearing of a track in an image.
 fn of_track(bearings: &[BearingObservation], track_id: u64) -> Option<&BearingObservation> {
@@ -20,32 +29,32 @@ fn of_track(bearings: &[BearingObservation], track_id: u64) -> Option<&BearingOb
 }
 
 /// Drops the landmarks that this image does not show or that were gated twice in a row.
-pub fn without_lost(navigator: &mut Navigator, bearings: &[BearingObservation]) {
-    for index in (0..navigator.estimate.state.landmarks.len()).rev() {
-        let Some(landmark) = navigator.estimate.state.landmarks.get(index) else { continue };
+pub fn without_lost(estimate: &mut DescentEstimate, bearings: &[BearingObservation]) {
+    for index in (0..estimate.state.landmarks.len()).rev() {
+        let Some(landmark) = estimate.state.landmarks.get(index) else { continue };
         let is_seen = of_track(bearings, landmark.track_id).is_some();
         let is_unknown = landmark.track_id != TrackObservation::DESIGNATED;
         if is_unknown && (!is_seen || landmark.gated >= 2) {
-            navigator.estimate = without_landmark(&navigator.estimate, index);
+            *estimate = without_landmark(estimate, index);
         }
     }
 }
 
 /// Places the landmarks whose first ray this image's bearing meets at an angle.
 pub fn with_triangulated(
-    navigator: &mut Navigator,
+    estimate: &mut DescentEstimate,
     bearings: &[BearingObservation],
     mount: &CameraMount,
     config: &LandingConfig,
 ) {
     let model = initialization(mount, config);
     let mut index = 0;
-    while let Some(landmark) = navigator.estimate.state.landmarks.get(index) {
+    while let Some(landmark) = estimate.state.landmarks.get(index) {
         if landmark.role == LandmarkRole::RayOrigin
             && let Some(bearing) = of_track(bearings, landmark.track_id)
-            && let Some(placed) = triangulated(&navigator.estimate, index, bearing, (config.least_parallax_rad, &model))
+            && let Some(placed) = triangulated(estimate, index, bearing, (config.least_parallax_rad, &model))
         {
-            navigator.estimate = placed;
+            *estimate = placed;
         }
         index += 1;
     }
@@ -63,10 +72,10 @@ pub struct Selection<'a> {
 }
 
 impl Selection<'_> {
-    fn view(&self, navigator: &Navigator, bearings: &[BearingObservation]) -> Viewpoint {
+    fn view(&self, estimate: &DescentEstimate, bearings: &[BearingObservation]) -> Viewpoint {
         let known = of_track(bearings, TrackObservation::DESIGNATED);
         let sigma_rad = known.or(bearings.first()).map_or(1e-3, BearingObservation::sigma_rad);
-        viewpoint(&navigator.estimate, self.increment, sigma_rad, self.config)
+        viewpoint(estimate, self.increment, sigma_rad, self.config)
     }
 
     /// Ideal direction of one of several simultaneous landmarks: the selector's, turned about the vertical by an equal
@@ -82,16 +91,16 @@ impl Selection<'_> {
     /// The real feature nearest the ideal direction that has not served before and will stay in view.
     fn feature<'b>(
         &self,
-        navigator: &Navigator,
+        (estimate, memory): (&DescentEstimate, &Memory),
         (view, bearings): (&Viewpoint, &'b [BearingObservation]),
         slot: usize,
     ) -> Option<&'b BearingObservation> {
-        let ideal = self.ideal_direction(view, slot, navigator.images)?;
-        let site_from_lander = navigator.estimate.state.lander_from_site.inverse();
+        let ideal = self.ideal_direction(view, slot, memory.images)?;
+        let site_from_lander = estimate.state.lander_from_site.inverse();
         let is_fresh = |b: &&BearingObservation| {
             b.known.is_none()
                 && b.track_id != TrackObservation::DESIGNATED
-                && !navigator.spent_tracks.contains(&b.track_id)
+                && !memory.spent_tracks.contains(&b.track_id)
         };
         let nadir = -Vector3::z();
         let candidates: Vec<Candidate> = bearings
@@ -107,8 +116,7 @@ impl Selection<'_> {
         };
         let stays = |c: &Candidate| {
             c.direction_in_site.angle(&nadir) < self.config.ground.largest_off_nadir_rad
-                && of_track(bearings, c.track_id)
-                    .is_some_and(|b| survives(&navigator.estimate.state, b, self.mount, &ahead))
+                && of_track(bearings, c.track_id).is_some_and(|b| survives(&estimate.state, b, self.mount, &ahead))
         };
         choose(&ideal, &candidates, stays).and_then(|c| of_track(bearings, c.track_id))
     }
@@ -133,27 +141,32 @@ impl Selection<'_> {
 }
 
 /// Puts a new landmark in every empty slot, and in place of every landmark that has been observed often enough.
-pub fn with_chosen(navigator: &mut Navigator, bearings: &[BearingObservation], selection: &Selection<'_>) {
-    let is_free = |navigator: &Navigator, slot: usize| {
-        let old = navigator.estimate.state.landmarks.iter().position(|l| l.slot == slot);
+pub fn with_chosen(
+    estimate: &mut DescentEstimate,
+    memory: &mut Memory,
+    bearings: &[BearingObservation],
+    selection: &Selection<'_>,
+) {
+    let is_free = |estimate: &DescentEstimate, slot: usize| {
+        let old = estimate.state.landmarks.iter().position(|l| l.slot == slot);
         let is_due = |k: usize| {
-            let landmark = &navigator.estimate.state.landmarks[k];
+            let landmark = &estimate.state.landmarks[k];
             landmark.role == LandmarkRole::Point && landmark.observations >= selection.config.reselect_after
         };
         (old.is_none_or(is_due), old)
     };
     let slots = 0..selection.config.unknown_landmarks;
-    if !slots.clone().any(|slot| is_free(navigator, slot).0) {
+    if !slots.clone().any(|slot| is_free(estimate, slot).0) {
         return;
     }
-    let view = selection.view(navigator, bearings);
+    let view = selection.view(estimate, bearings);
     for slot in slots {
-        let (true, old) = is_free(navigator, slot) else { continue };
-        let Some(bearing) = selection.feature(navigator, (&view, bearings), slot) else { continue };
-        let kept = old.map_or(navigator.estimate.clone(), |k| without_landmark(&navigator.estimate, k));
-        if let Some(estimate) = selection.started(&kept, bearing, slot) {
-            navigator.estimate = estimate;
-            navigator.spent_tracks.insert(bearing.track_id);
+        let (true, old) = is_free(estimate, slot) else { continue };
+        let Some(bearing) = selection.feature((estimate, memory), (&view, bearings), slot) else { continue };
+        let kept = old.map_or(estimate.clone(), |k| without_landmark(estimate, k));
+        if let Some(started) = selection.started(&kept, bearing, slot) {
+            *estimate = started;
+            memory.spent_tracks.insert(bearing.track_id);
         }
     }
 }

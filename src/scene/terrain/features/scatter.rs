@@ -84,7 +84,7 @@ impl Scatter {
     }
 
     /// Mean number of features a square metre.
-    pub(super) fn number_1_m2(&self) -> f64 {
+    pub(in crate::scene::terrain) fn number_1_m2(&self) -> f64 {
         f64::from(FEATURES_PER_CELL) * self.probability / Scatter::cell_of_m(self.smallest_m).powi(2)
     }
 

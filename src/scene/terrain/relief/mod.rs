@@ -4,4 +4,4 @@ mod ground_sample;
 mod octave_sums;
 
 pub use ground_sample::{FeatureSample, GroundDetail, GroundSample};
-pub use octave_sums::OctaveSums;
+pub use octave_sums::{OctaveSource, OctaveSums};

@@ -2,7 +2,7 @@
 
 use super::ground_sample::{GroundDetail, GroundSample};
 use crate::scene::noise::{NOISE_2D_STEEPEST, NoiseOctave, NoiseTable};
-use crate::scene::terrain::terrain::Terrain;
+use crate::scene::terrain::measured_base::GroundBase;
 use nalgebra::Vector2;
 
 fn visibility(wavelength_m: f64, footprint_m: f64) -> f64 {
@@ -14,6 +14,20 @@ const MOST_OCTAVES: usize = 32;
 
 /// Size of the evaluated details over the wavelength of the finest octave that displaces contacts.
 const FINEST_DISPLACING: f64 = 8.0;
+
+/// Displacement of a contact by an octave, over its wavelength and albedo field.
+pub const DISPLACEMENT: f64 = 0.5;
+
+/// What octaves are added up of.
+#[derive(Debug, Clone, Copy)]
+pub struct OctaveSource<'a> {
+    /// The octaves, the largest first.
+    pub octaves: &'a [NoiseOctave],
+    /// What is measured of the ground below them.
+    pub base: Option<&'a GroundBase>,
+    /// Lattices of the first octaves, looked up once.
+    pub tables: &'a [Option<NoiseTable>],
+}
 
 /// What the octaves of a terrain add up to at one place.
 #[derive(Debug)]
@@ -30,24 +44,19 @@ pub struct OctaveSums<'a> {
 }
 
 impl<'a> OctaveSums<'a> {
-    /// Sums at a place (m); `tables` are those of the first octaves.
-    pub fn new(
-        terrain: &'a Terrain,
-        tables: &'a [Option<NoiseTable>],
-        at: &Vector2<f64>,
-        detail: &GroundDetail,
-    ) -> Self {
+    /// Sums at a place (m).
+    pub fn new(source: &OctaveSource<'a>, at: &Vector2<f64>, detail: &GroundDetail) -> Self {
         let flat = GroundSample { height_m: 0.0, gradient: Vector2::zeros(), albedo_change: 0.0 };
         let mut sums = OctaveSums {
-            relief: terrain.base.as_ref().map_or(flat, |base| base.sample(at.x, at.y, detail)),
-            octaves: &terrain.octaves,
-            tables,
+            relief: source.base.map_or(flat, |base| base.sample(at.x, at.y, detail)),
+            octaves: source.octaves,
+            tables: source.tables,
             at: *at,
             count: 0,
-            displacing: terrain.octaves.partition_point(|o| o.wavelength_m * FINEST_DISPLACING >= detail.height_m),
+            displacing: source.octaves.partition_point(|o| o.wavelength_m * FINEST_DISPLACING >= detail.height_m),
             displacement_m: [0.0; MOST_OCTAVES],
         };
-        for octave in terrain.octaves.iter().take(MOST_OCTAVES) {
+        for octave in source.octaves.iter().take(MOST_OCTAVES) {
             let weight = visibility(octave.wavelength_m, detail.footprint_m);
             if octave.wavelength_m < detail.height_m || weight <= 0.0 {
                 break;
@@ -124,6 +133,3 @@ impl<'a> OctaveSums<'a> {
             .sum()
     }
 }
-
-/// Displacement of a contact by an octave, over its wavelength and albedo field.
-pub const DISPLACEMENT: f64 = 0.5;
