@@ -1,5 +1,10 @@
 //! Tests of the room `stats`.
 
+mod least_squares;
+mod robust;
+mod standard_problems;
+mod symmetric;
+
 use nalgebra::{SMatrix, SVector};
 use opnav::stats::{ConsistencyBounds, Estimate, normalized_error_squared, random_stream};
 use rand::RngExt;

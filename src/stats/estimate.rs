@@ -1,5 +1,6 @@
 //! A state with its covariance.
 
+use super::symmetric::symmetric;
 use crate::geometry::Manifold;
 use nalgebra::{SMatrix, SVector};
 
@@ -25,7 +26,7 @@ impl<S: Manifold<N>, const N: usize> Estimate<S, N> {
 
     /// The covariance made exactly symmetric.
     pub fn symmetrized(mut self) -> Self {
-        self.covariance = (self.covariance + self.covariance.transpose()) * 0.5;
+        self.covariance = symmetric(&self.covariance);
         self
     }
 }
