@@ -23,7 +23,7 @@ test: packages
 
 # Long accuracy campaigns against their bounds, as a table.
 accuracy: packages
-	cargo test --test main accuracy -- --ignored --nocapture --test-threads=1
+	cargo test --test main accuracy_ -- --ignored --nocapture --test-threads=1
 
 # Every reader of files against damaged ones, ten minutes each (FUZZ_SECONDS), from a new seed each time (FUZZ_SEED).
 fuzz: packages

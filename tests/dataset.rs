@@ -1,8 +1,7 @@
 //! Tests of the room `dataset`.
 
-mod folders;
 mod ground_map;
-mod pictures;
+mod images;
 
 use image::{DynamicImage, GrayImage, ImageBuffer, Luma};
 use nalgebra::{Isometry3, Matrix2, Translation3, UnitQuaternion, Vector2, Vector3};

@@ -1,33 +1,22 @@
-//! One test binary with a module a room, so that it links once.
+//! One test binary, so that it links once: a module a room, and in it a module a wing, as in `src`.
 
+mod accuracy_bar;
 mod architecture;
-mod bar;
+mod campaign;
 #[cfg(all(feature = "render", feature = "vision"))]
 mod cli;
 mod dataset;
-#[cfg(all(feature = "render", feature = "vision"))]
-mod end_to_end;
 mod evaluation;
-mod filter;
 mod fuzz;
 mod geometry;
-mod landing;
-mod landmark;
+mod navigation;
+mod observations;
 #[cfg(all(feature = "render", feature = "vision"))]
-mod map_matching;
-mod observability;
+mod pipeline;
 #[cfg(feature = "render")]
 mod render;
-#[cfg(all(feature = "render", feature = "vision"))]
-mod rendered_landings;
-#[cfg(all(feature = "render", feature = "vision"))]
-mod rendered_sequences;
 mod report;
 mod scene;
 mod stats;
-#[cfg(all(feature = "render", feature = "vision"))]
-mod synthesis;
-mod terrain;
-mod tumbling;
 #[cfg(feature = "vision")]
 mod vision;

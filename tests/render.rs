@@ -1,24 +1,17 @@
 //! Tests of the room `render`. They need a graphics adapter; Mesa's lavapipe will do.
 
-mod adapters;
-mod albedo;
-mod bars;
-mod depth;
-mod detector;
-mod elevation;
+mod accuracy;
+mod body;
 mod extremes;
-mod lens;
-mod light;
+mod gpu;
+mod optics;
 mod picture_polygon;
-mod pixels;
 mod ray_caster;
 mod refusals;
-mod repetition;
-mod sensor_motion;
-mod sensor_noise;
-mod sensor_optics;
+mod sensor;
+mod shading;
 mod stars;
-mod texture;
+mod terrain;
 
 use nalgebra::{Isometry3, Matrix3, Unit, UnitQuaternion, Vector2, Vector3};
 use opnav::geometry::Camera;

@@ -1,24 +1,16 @@
 //! Tests of the room `scene`.
 
 mod attachment;
-mod bodies;
-mod body_albedo;
-mod body_boulders;
-mod body_formats;
-mod body_large;
-mod body_motion;
-mod cameras;
+mod body;
+mod camera;
 mod descent;
-mod elevation_files;
-mod elevation_model;
-mod elevation_scenarios;
-mod meshes;
+mod elevation;
+mod light;
 mod photometry;
-mod scenarios;
-mod sensors;
-mod several_cameras;
+mod scenario;
+mod sensor;
 mod stars;
-mod sunlight;
+mod terrain;
 mod tumbling;
 
 use opnav::scene::{DescentScene, Scenario, Scene, SceneError, TumblingScene};

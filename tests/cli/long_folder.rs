@@ -1,6 +1,6 @@
 //! Memory over the length of a folder.
 
-use crate::bar::{Bar, check_table};
+use crate::accuracy_bar::{Bar, check_table};
 use crate::vision::texture::picture;
 use nalgebra::Vector2;
 use std::path::Path;

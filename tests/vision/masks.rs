@@ -1,8 +1,8 @@
 //! Parts of the spacecraft in the picture: a mask keeps features, patches and the rotation off them.
 
-use super::bearings::angle_deg;
-use super::sequences::{SIDE, config, frame, gyro, t_ns, true_rotation, write};
+use super::pair::bearings::angle_deg;
 use super::texture::picture;
+use super::tracking::sequences::{SIDE, config, frame, gyro, t_ns, true_rotation, write};
 use image::{GrayImage, Luma};
 use nalgebra::{Matrix2, Vector2};
 use opnav::dataset::DesignatedPoint;

@@ -1,0 +1,4 @@
+//! Tests of the wing `dataset::images`.
+
+mod folders;
+mod grey_levels;

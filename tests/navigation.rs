@@ -1,0 +1,7 @@
+//! Tests of the room `navigation`.
+
+mod filter;
+mod landing;
+mod landmark;
+mod observability;
+mod tumbling;

@@ -1,0 +1,4 @@
+//! Tests of the room `observations`.
+
+#[cfg(feature = "vision")]
+mod files;

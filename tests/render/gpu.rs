@@ -1,0 +1,5 @@
+//! Tests of the wing `render::gpu`.
+
+mod adapters;
+mod depth;
+mod repetition;

@@ -1,0 +1,5 @@
+//! Tests of the wing `render::optics`.
+
+mod lens;
+mod motion;
+mod pixels;

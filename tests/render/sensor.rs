@@ -1,0 +1,5 @@
+//! Tests of the wing `render::sensor`.
+
+mod detector;
+mod noise;
+mod optics;

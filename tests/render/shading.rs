@@ -1,0 +1,4 @@
+//! Tests of the wing `render::shading`.
+
+mod light;
+pub mod texture;

@@ -1,0 +1,3 @@
+//! Tests of the wing `render::terrain`.
+
+mod elevation;

@@ -1,0 +1,8 @@
+//! Tests of the wing `scene::body`.
+
+mod albedo;
+mod boulders;
+mod formats;
+mod large;
+mod mesh;
+mod procedural;

@@ -1,0 +1,4 @@
+//! Tests of the wing `scene::camera`.
+
+mod lens;
+mod several;

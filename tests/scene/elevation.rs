@@ -1,0 +1,5 @@
+//! Tests of the wing `scene::elevation`.
+
+mod formats;
+mod model;
+mod scenarios;

@@ -1,0 +1,3 @@
+//! Tests of the wing `vision::matching`.
+
+mod sift;

@@ -1,0 +1,135 @@
+//! SIFT descriptors beside ORB's: at which features there are some, and what they match.
+
+use crate::vision::texture::picture;
+use image::{GrayImage, Luma, imageops};
+use nalgebra::{Matrix2, Vector2};
+use opnav::vision::*;
+
+const SIDE: u32 = 320;
+const PATCH_PX: f64 = 21.0;
+
+fn ground() -> GrayImage {
+    picture(SIDE, SIDE, 0.0, 1, |p| p)
+}
+
+fn features(picture: &GrayImage) -> Vec<Feature> {
+    detect_harris(picture, None, &DetectorConfig { max_features: 300, ..DetectorConfig::default() }).expect("features")
+}
+
+fn at(u_px: f64, v_px: f64) -> Feature {
+    Feature {
+        pixel_px: Vector2::new(u_px, v_px),
+        sigma_px: 0.1,
+        covariance_px2: Matrix2::identity() * 0.01,
+        response: 1.0,
+    }
+}
+
+fn described(picture: &GrayImage, features: &[Feature], orientation: Orientation) -> Vec<Option<SiftDescriptor>> {
+    describe_sift(picture, features, orientation, PATCH_PX).expect("descriptors")
+}
+
+/// A feature where a quarter turn to the right takes it.
+fn turned(feature: &Feature) -> Feature {
+    at(f64::from(SIDE - 1) - feature.pixel_px.y, feature.pixel_px.x)
+}
+
+/// Matches of a picture's features with the same features in another picture of it: how many, and how many of the same.
+fn same(
+    from: (&GrayImage, &[Feature]),
+    to: (&GrayImage, &[Feature]),
+    orientation: Orientation,
+    patch_px: f64,
+) -> (usize, usize) {
+    let [a, b] = [from, to]
+        .map(|(picture, features)| describe_sift(picture, features, orientation, patch_px).expect("descriptors"));
+    let (from, to) = (Described { features: from.1, descriptors: &a }, Described { features: to.1, descriptors: &b });
+    let found = match_features(from, to, &MatcherConfig::default());
+    let mut taken: Vec<usize> = found.iter().map(|m| m.to).collect();
+    taken.sort_unstable();
+    taken.dedup();
+    assert_eq!(taken.len(), found.len(), "each at most once on either side");
+    (found.len(), found.iter().filter(|m| m.from == m.to).count())
+}
+
+#[test]
+fn a_turned_and_brightened_picture_matches_itself() {
+    let plain = ground();
+    let here = features(&plain);
+    let mut bright = imageops::rotate90(&plain);
+    bright.pixels_mut().for_each(|p| p.0[0] = (0.6 * f64::from(p.0[0]) + 90.0) as u8);
+    let there: Vec<Feature> = here.iter().map(turned).collect();
+    let (found, right) = same((&plain, &here), (&bright, &there), Orientation::Centroid, PATCH_PX);
+    assert!(here.len() == 300 && right == found && right > 270, "{right} of {found}, {} features", here.len());
+    let (_, upright) = same((&plain, &here), (&bright, &there), Orientation::Upright, PATCH_PX);
+    assert!(upright < 10, "{upright} match upright, though the picture is turned");
+    let (_, mirrored) =
+        same((&plain, &here), (&imageops::flip_vertical(&bright), &there), Orientation::Centroid, PATCH_PX);
+    assert!(mirrored < 10, "{mirrored} match in the mirror image");
+}
+
+#[test]
+fn distances_are_lengths_and_the_ratio_is_theirs() {
+    let descriptor = |first: u8| {
+        let mut sums = [0u8; 128];
+        sums[0] = first;
+        Some(sums)
+    };
+    let features = [at(50.0, 50.0), at(90.0, 90.0)];
+    let (from, to) = ([descriptor(0)], [descriptor(80), descriptor(100)]);
+    let found = |max_ratio: f64, max_distance: f64| {
+        let mut config = MatcherConfig::default();
+        (config.sift.max_ratio, config.sift.max_distance) = (max_ratio, max_distance);
+        let (from, to) = (
+            Described { features: &features[..1], descriptors: &from },
+            Described { features: &features, descriptors: &to },
+        );
+        match_features(from, to, &config)
+    };
+    // 80 over 100 is 0.8; of the squares it would be 0.64.
+    assert_eq!(found(0.81, 200.0), [IndexMatch { from: 0, to: 0, distance: 80.0 }]);
+    assert!(found(0.79, 200.0).is_empty());
+    assert!(found(0.81, 79.0).is_empty());
+    assert_eq!(found(0.81, 80.0).len(), 1);
+    let all = [[255u8; 128], [0; 128]].map(Some);
+    assert_eq!(all[0].expect("a descriptor").difference(&all[1].expect("a descriptor")), 128 * 255 * 255);
+}
+
+#[test]
+fn edges_flat_ground_and_nothing_at_all_are_no_errors() {
+    let plain = ground();
+    for orientation in [Orientation::Upright, Orientation::Centroid] {
+        assert!(described(&plain, &[], orientation).is_empty());
+        let last = f64::from(SIDE - 1);
+        let edge =
+            [at(0.0, 0.0), at(7.9, 100.0), at(100.0, last - 6.9), at(last, last), at(-5.0, 40.0), at(f64::NAN, 9.0)];
+        assert_eq!(described(&plain, &edge, orientation), [None; 6]);
+        let near = [at(8.0, 100.0), at(last - 8.0, last - 8.0), at(3.0, 3.0), at(100.0, 8.0)];
+        let found: Vec<bool> = described(&plain, &near, orientation).iter().map(Option::is_some).collect();
+        assert_eq!(found, [true, true, false, true]);
+        assert_eq!(described(&GrayImage::from_pixel(64, 64, Luma([90])), &[at(32.0, 32.0)], orientation), [None]);
+        assert_eq!(described(&GrayImage::new(5, 5), &[at(2.0, 2.0)], orientation), [None]);
+        assert!(described(&ground(), &[at(160.0, 160.0)], orientation)[0].is_some());
+    }
+}
+
+#[test]
+fn the_patch_has_least_and_greatest_sides() {
+    let plain = ground();
+    let here = features(&plain);
+    for patch_px in [8.0, 21.0, 128.0] {
+        let (found, right) = same((&plain, &here), (&plain, &here), Orientation::Upright, patch_px);
+        assert!(right == found && right > 250, "{right} of {found} with {patch_px} px");
+    }
+    for patch_px in [0.0, 7.9, 128.1, f64::NAN, -30.0, f64::INFINITY] {
+        let error = describe_sift(&plain, &here, Orientation::Upright, patch_px).expect_err("refused");
+        assert!(error.to_string().contains("between 8 and 128"), "{error}");
+        let mut config = FrontEndConfig::default();
+        config.matcher.sift.patch_px = patch_px;
+        let error = config.validate().expect_err("refused");
+        assert!(error.to_string().contains("matcher.sift.patch_px"), "{error}");
+    }
+    let mut config = FrontEndConfig::default();
+    config.matcher.sift.max_ratio = 1.5;
+    assert!(config.validate().expect_err("refused").to_string().contains("matcher.sift.max_ratio"));
+}
