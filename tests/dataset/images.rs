@@ -1,4 +1,8 @@
 //! Tests of the wing `dataset::images`.
 
-mod folders;
+mod camera_file;
+mod frame_list;
 mod grey_levels;
+mod image_file;
+mod raster;
+mod sequence;

@@ -1,11 +1,21 @@
 //! Tests of the wing `navigation::landing`.
 
+mod accuracy;
+mod bearings;
+mod biases;
+mod chart;
+mod delayed;
 pub mod descent;
-mod extras;
+mod designated;
+mod error_state;
 mod flight;
+mod flown;
+mod from_pixels;
+mod image_rotation;
 mod in_place;
-mod linear;
+mod map;
 mod monte_carlo;
-mod pixels;
+mod outages;
+mod refusals;
 mod speed;
 mod wrong_point;

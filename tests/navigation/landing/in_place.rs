@@ -1,8 +1,8 @@
 //! The covariance moved and corrected in place: without allocation, and equal to what dense matrices give; known points,
 //! biases and the planet's rotation against central differences.
 
+use super::chart::{Chart, KINDS, NOISE, bearing_to, imu_samples, increment, model, moved, state};
 use super::descent::PLANET;
-use super::linear::{Chart, KINDS, NOISE, bearing_to, imu_samples, increment, model, moved, state};
 use nalgebra::{DVector, Matrix2, SMatrix, SVector, Unit, Vector3};
 use opnav::geometry::central_difference;
 use opnav::geometry::so3::{log, tangent_basis};

@@ -1,0 +1,5 @@
+//! Tests of the wing `dataset::storage`.
+
+mod atomic;
+mod manifest;
+mod tables;
