@@ -3,7 +3,7 @@
 use super::landing_options::{LandingOptions, selector_parser};
 use super::progress::Terminal;
 use clap::{Subcommand, ValueEnum};
-use opnav::campaign::{CampaignOptions, FieldOfView};
+use opnav::pipeline::{CampaignOptions, FieldOfView};
 use opnav::pipeline::{MonteCarloRequest, PipelineError, Selector, montecarlo_landing};
 use std::path::PathBuf;
 
