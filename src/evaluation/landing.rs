@@ -111,31 +111,43 @@ fn roll_pitch_yaw(site_from_lander: &UnitQuaternion<f64>) -> Vector3<f64> {
 fn add_series(errors: &[LandingError], metrics: &mut Metrics) {
     for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
         let name = format!("position_error_{letter}");
-        add_curve(errors, (&name, "m", 1.0), (|e, k| e.position_m[k], axis), metrics);
+        add_curve(errors, &Curve { name: &name, unit: "m", scale: 1.0 }, (|e, k| e.position_m[k], axis), metrics);
     }
     for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
         let name = format!("velocity_error_{letter}");
-        add_curve(errors, (&name, "m/s", 1.0), (|e, k| e.velocity_m_s[k - 6], 6 + axis), metrics);
+        add_curve(
+            errors,
+            &Curve { name: &name, unit: "m/s", scale: 1.0 },
+            (|e, k| e.velocity_m_s[k - 6], 6 + axis),
+            metrics,
+        );
     }
     for (axis, name) in ["roll_error", "pitch_error", "yaw_error"].into_iter().enumerate() {
-        let degrees = (name, "deg", 1f64.to_degrees());
-        add_curve(errors, degrees, (|e, k| e.roll_pitch_yaw_rad[k - 3], 3 + axis), metrics);
+        let degrees = Curve { name, unit: "deg", scale: 1f64.to_degrees() };
+        add_curve(errors, &degrees, (|e, k| e.roll_pitch_yaw_rad[k - 3], 3 + axis), metrics);
     }
 }
 
-/// One curve: its name, unit and scale to that unit, and the component `k` of the file's 1σ that goes with it.
+/// What a curve is called, and its scale from SI to its unit.
+struct Curve<'a> {
+    name: &'a str,
+    unit: &'a str,
+    scale: f64,
+}
+
+/// One curve, and the component `k` of the file's 1σ that goes with it.
 fn add_curve(
     errors: &[LandingError],
-    (name, unit, scale): (&str, &str, f64),
+    curve: &Curve,
     (component, k): (fn(&LandingError, usize) -> f64, usize),
     metrics: &mut Metrics,
 ) {
-    let sigma: Option<Vec<f64>> = errors.iter().map(|e| Some(e.sigma?[k] * scale)).collect();
+    let sigma: Option<Vec<f64>> = errors.iter().map(|e| Some(e.sigma?[k] * curve.scale)).collect();
     metrics.series.push(Series {
-        name: name.into(),
-        unit: unit.into(),
+        name: curve.name.into(),
+        unit: curve.unit.into(),
         t_s: errors.iter().map(|e| e.t_s).collect(),
-        values: errors.iter().map(|e| component(e, k) * scale).collect(),
+        values: errors.iter().map(|e| component(e, k) * curve.scale).collect(),
         sigma: sigma.unwrap_or_default(),
         bound: None,
     });

@@ -46,7 +46,7 @@ pub fn map_level(
     let vertex_spacing_px = config.vertex_spacing_px.max(VERTEX_SPACING_PX);
     let config = RenderConfig { shadow_map_px: SHADOW_MAP_PX, surface_truth: false, vertex_spacing_px, ..*config };
     let frame = Renderer::new(gpu, World::Terrain(terrain), &camera, &config)?.render(&view)?;
-    let numbers = orthorectified((&frame, &camera, &view), level, &heights_m);
+    let numbers = orthorectified(&frame, (&camera, &view), level, &heights_m);
     let posts = level.posts() as u32;
     Ok(MapLevel {
         metres_per_px: level.metres_per_px,
@@ -60,7 +60,8 @@ pub fn map_level(
 
 /// The picture at each post's place and height, bilinear; 0 where it does not reach.
 fn orthorectified(
-    (frame, camera, view): (&RenderedFrame, &Camera, &View),
+    frame: &RenderedFrame,
+    (camera, view): (&Camera, &View),
     level: &SurveyLevel,
     heights_m: &[f32],
 ) -> Vec<u16> {

@@ -81,7 +81,7 @@ impl Surface {
     ) -> Result<ShadingJob, RenderError> {
         let placement = match &mut self.kind {
             Kind::Body(body) => place_body(body, view, camera)?,
-            Kind::Terrain(terrain) => place_terrain(terrain, gpu, view, (camera, lens, config))?,
+            Kind::Terrain(terrain) => place_terrain(terrain, gpu, (camera, view), (lens, config))?,
         };
         let rotation = view.reference_from_camera.rotation.to_homogeneous();
         let shadow_clip = placement.covered.clip_from_relative();
@@ -191,8 +191,8 @@ fn place_body(body: &BodyGeometry, view: &View, camera: &Camera) -> Result<Place
 fn place_terrain(
     terrain: &mut TerrainGeometry,
     gpu: &Gpu,
-    view: &View,
-    (camera, lens, config): (&Camera, &Lens, &RenderConfig),
+    (camera, view): (&Camera, &View),
+    (lens, config): (&Lens, &RenderConfig),
 ) -> Result<Placement, RenderError> {
     let height_m = terrain.check_view(view)?;
     let levels = LevelRange::new(height_m, lens.finest_focal_px, config.vertex_spacing_px);

@@ -15,8 +15,8 @@ use std::time::Instant;
 /// Settings out of range, or IMU samples that do not fit the pictures.
 pub(super) fn known_sightings(
     sequence: &ImageSequence,
-    input: &LandingInput,
-    (map, designated, config): (&GroundMap, &[DesignatedStep], &LandingConfig),
+    (input, config): (&LandingInput, &LandingConfig),
+    (map, designated): (&GroundMap, &[DesignatedStep]),
     (progress, summary): (&dyn Progress, &mut Summary),
 ) -> Result<SightedByMap, PipelineError> {
     let start = Instant::now();

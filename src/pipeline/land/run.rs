@@ -80,7 +80,8 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
     };
     if let Some(map) = &map {
         let designated = front_end.designated.as_slice();
-        let sighted = known_sightings(&sequence, &input, (map, designated, &request.config), (progress, &mut summary))?;
+        let sighted =
+            known_sightings(&sequence, (&input, &request.config), (map, designated), (progress, &mut summary))?;
         summary.notes.extend(map_note(&sighted.points));
         input.known = sighted.known;
     }

@@ -18,9 +18,9 @@ const MOST_THREADS: usize = 8;
 
 /// Draws the missing frames and adds what is known of them to `finished`.
 pub(super) fn draw_frames(
-    (gpu, scene, scenario): (&Gpu, &Scene, &Scenario),
-    missing: &[FrameKey],
-    folder: &DatasetFolder,
+    gpu: &Gpu,
+    (scene, scenario): (&Scene, &Scenario),
+    (missing, folder): (&[FrameKey], &DatasetFolder),
     (finished, progress): (&mut BTreeMap<FrameKey, FrameRecord>, &dyn Progress),
 ) -> Result<DrawTiming, PipelineError> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS);

@@ -38,7 +38,7 @@ pub fn synthesize(request: &SynthesizeRequest, progress: &dyn Progress) -> Resul
     write_elevation(root, &scene)?;
     note_filled_posts(&scene, progress);
     let missing = missing_frames(&scene, &frames, &finished);
-    let timing = draw_frames((&gpu, &scene, &scenario), &missing, &folder, (&mut finished, progress))?;
+    let timing = draw_frames(&gpu, (&scene, &scenario), (&missing, &folder), (&mut finished, progress))?;
     write_observation_lists(root, &scene, &finished)?;
     if scenario.truth.flow {
         write_flows(&scene, &frames, &folder, (&earlier, progress))?;
