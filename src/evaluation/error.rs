@@ -1,7 +1,7 @@
 //! Why an evaluation could not be made.
 
 use crate::dataset::DatasetError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Why a result could not be compared with the truth.
@@ -46,4 +46,11 @@ pub enum EvaluationError {
         /// What is wrong with it.
         problem: String,
     },
+}
+
+impl EvaluationError {
+    /// That the estimates of a result share no moment with the truth of a data set.
+    pub(super) fn no_common_time(result: &Path, root: &Path) -> Self {
+        EvaluationError::NoCommonTime { result: result.join("estimate.csv"), truth: root.join("truth") }
+    }
 }

@@ -39,17 +39,9 @@ pub fn evaluate_landing(
     let epochs = read_landing_epochs(result)?;
     let errors: Vec<LandingError> = epochs.iter().filter_map(|epoch| landing_error(&states, epoch)).collect();
     if errors.is_empty() {
-        let (result, truth) = (result.join("estimate.csv"), root.join("truth"));
-        return Err(EvaluationError::NoCommonTime { result, truth });
+        return Err(EvaluationError::no_common_time(result, root));
     }
-    if errors.len() < epochs.len() {
-        metrics.note(format!(
-            "{} of {} epochs lie outside the truth's time.",
-            epochs.len() - errors.len(),
-            epochs.len()
-        ));
-    }
-    metrics.add("epochs", errors.len() as f64, "1");
+    metrics.add_epochs(errors.len(), epochs.len());
     add_series(&errors, metrics);
     add_consistency(&errors, metrics);
     add_trajectory(&errors, metrics);

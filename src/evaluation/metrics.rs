@@ -89,6 +89,14 @@ impl Metrics {
         }
     }
 
+    /// Adds the number of epochs that can be judged, and a note where some lie outside the truth's time.
+    pub(super) fn add_epochs(&mut self, judged: usize, all: usize) {
+        if judged < all {
+            self.note(format!("{} of {all} epochs lie outside the truth's time.", all - judged));
+        }
+        self.add("epochs", judged as f64, "1");
+    }
+
     /// Adds a note.
     pub fn note(&mut self, text: impl Into<String>) {
         self.notes.push(text.into());

@@ -46,16 +46,9 @@ pub fn evaluate_tumbling(
     let errors: Vec<TumblingError> =
         epochs.iter().filter_map(|epoch| tumbling_error(&truth, epoch, start_of_truth_ns)).collect();
     if errors.is_empty() {
-        return Err(no_common_time(result, root));
+        return Err(EvaluationError::no_common_time(result, root));
     }
-    if errors.len() < epochs.len() {
-        metrics.note(format!(
-            "{} of {} epochs lie outside the truth's time.",
-            epochs.len() - errors.len(),
-            epochs.len()
-        ));
-    }
-    metrics.add("epochs", errors.len() as f64, "1");
+    metrics.add_epochs(errors.len(), epochs.len());
     add_series(&errors, metrics);
     let samples: Vec<_> = errors.iter().filter_map(|e| e.normalized).collect();
     metrics.add_consistency(&samples, errors.len());
@@ -64,15 +57,11 @@ pub fn evaluate_tumbling(
     Ok(())
 }
 
-fn no_common_time(result: &Path, root: &Path) -> EvaluationError {
-    EvaluationError::NoCommonTime { result: result.join("estimate.csv"), truth: root.join("truth") }
-}
-
 /// Turns states and inertia into the estimator's asteroid axes, and inertial axes into the camera's.
 fn aligned_truth(result: &Path, root: &Path, start_ns: Option<i64>) -> Result<AlignedTruth, EvaluationError> {
     let (states, inertia) = read_asteroid(root)?;
     let start_ns = start_ns.unwrap_or(states[0].t_ns);
-    let start = asteroid_state_at(&states, start_ns).ok_or_else(|| no_common_time(result, root))?;
+    let start = asteroid_state_at(&states, start_ns).ok_or_else(|| EvaluationError::no_common_time(result, root))?;
     let inertial_from_camera = inertial_from_camera(root, &start)?;
     let estimate_from_truth = (start.asteroid_from_inertial * inertial_from_camera).inverse();
     let align = |state: &AsteroidState| AsteroidState {

@@ -92,14 +92,14 @@ fn first_displacing(wavelength_m: f64, octaves: &[NoiseOctave]) -> usize {
 
 fn craters(config: &TerrainConfig, seed: u64) -> Vec<CraterClass> {
     let diameters_m = [config.smallest_crater_m, config.largest_crater_m];
-    let field = NoiseOctave::field(CRATER_PATCH_M, seed, "terrain-crater-patches", 0);
+    let patches = Patches {
+        field: NoiseOctave::field(CRATER_PATCH_M, seed, "terrain-crater-patches", 0),
+        strength: CRATER_PATCH_STRENGTH,
+    };
     Scatter::classes(diameters_m, config.crater_density, config.crater_exponent, seeds(seed, "terrain-craters"))
         .into_iter()
         .map(|scatter| CraterClass {
-            scatter: Scatter {
-                patches: Some(Patches { field: field.clone(), strength: CRATER_PATCH_STRENGTH }),
-                ..scatter
-            },
+            scatter: scatter.patchy(&patches),
             depth_ratio: config.crater_depth_ratio,
             site_slope: config.site_slope,
             albedo_contrast: config.unit_contrast,
@@ -113,14 +113,14 @@ fn rocks(config: &TerrainConfig, seed: u64) -> Vec<RockClass> {
     }
     let diameters_m = [config.smallest_rock_m, config.largest_rock_m];
     let density_1_m2 = |diameter_m| rock_density_1_m2(config.rock_abundance, diameter_m);
-    let field = NoiseOctave::field(ROCK_PATCH_M, seed, "terrain-rock-patches", 0);
+    let patches = Patches {
+        field: NoiseOctave::field(ROCK_PATCH_M, seed, "terrain-rock-patches", 0),
+        strength: ROCK_PATCH_STRENGTH,
+    };
     Scatter::classes_of_density(diameters_m, density_1_m2, seeds(seed, "terrain-rocks"))
         .into_iter()
         .map(|scatter| RockClass {
-            scatter: Scatter {
-                patches: Some(Patches { field: field.clone(), strength: ROCK_PATCH_STRENGTH }),
-                ..scatter
-            },
+            scatter: scatter.patchy(&patches),
             site_slope: config.site_slope,
             albedo_contrast: config.unit_contrast,
         })
@@ -129,15 +129,15 @@ fn rocks(config: &TerrainConfig, seed: u64) -> Vec<RockClass> {
 
 fn hummocks(config: &TerrainConfig, seed: u64) -> Vec<HummockClass> {
     let diameters_m = [config.smallest_hummock_m, config.largest_hummock_m];
-    let field = NoiseOctave::field(HUMMOCK_PATCH_M, seed, "terrain-hummock-patches", 0);
+    let patches = Patches {
+        field: NoiseOctave::field(HUMMOCK_PATCH_M, seed, "terrain-hummock-patches", 0),
+        strength: HUMMOCK_PATCH_STRENGTH,
+    };
     // The same share of the ground for each octave of diameters.
     Scatter::classes(diameters_m, config.hummock_density, 2.0, seeds(seed, "terrain-hummocks"))
         .into_iter()
         .map(|scatter| HummockClass {
-            scatter: Scatter {
-                patches: Some(Patches { field: field.clone(), strength: HUMMOCK_PATCH_STRENGTH }),
-                ..scatter
-            },
+            scatter: scatter.patchy(&patches),
             height_ratio: config.hummock_height_ratio,
             site_slope: config.site_slope,
             albedo_contrast: 0.5 * config.unit_contrast,

@@ -44,6 +44,11 @@ impl Scatter {
     /// Reach of a feature in radii: the largest one reaches half a cell, so that the four nearest cells suffice.
     pub const REACH_RADII: f64 = 2.0;
 
+    /// The same grid, unevenly filled.
+    pub(super) fn patchy(self, patches: &Patches) -> Scatter {
+        Scatter { patches: Some(patches.clone()), ..self }
+    }
+
     /// Grids of one octave of diameters each, the largest first, for features of which N(>D) ~ D^-`exponent`.
     /// `probability` is that of the smallest class.
     pub fn classes(
