@@ -1,15 +1,11 @@
 //! Figures that describe a set of numbers.
 
+use crate::stats::quantile;
+
 /// Percentile (`share` from 0 to 1) with linear interpolation between order statistics; `None` of nothing. Values that
 /// are not numbers are left out.
 pub fn percentile(values: &[f64], share: f64) -> Option<f64> {
-    let mut sorted: Vec<f64> = values.iter().copied().filter(|v| !v.is_nan()).collect();
-    sorted.sort_by(f64::total_cmp);
-    let last = sorted.len().checked_sub(1)?;
-    let place = share.clamp(0.0, 1.0) * last as f64;
-    let (low, part) = (place.floor() as usize, place.fract());
-    let high = (low + 1).min(last);
-    Some(if part == 0.0 { sorted[low] } else { sorted[low] * (1.0 - part) + sorted[high] * part })
+    quantile(&mut values.iter().copied().filter(|v| !v.is_nan()).collect::<Vec<f64>>(), share)
 }
 
 /// Median; `None` of nothing.

@@ -5,6 +5,7 @@ use super::progress::Progress;
 use super::track::checked_frames;
 use crate::render::{Gpu, Renderer, StageTime};
 use crate::scene::Scenario;
+use crate::stats::upper_median;
 use serde::Serialize;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -71,13 +72,10 @@ pub fn bench_render(request: &BenchRenderRequest, progress: &dyn Progress) -> Re
 }
 
 fn medians(by_frame: &[Vec<StageTime>]) -> Vec<StageTime> {
-    let median = |mut values: Vec<f64>| {
-        values.sort_by(f64::total_cmp);
-        values.get(values.len() / 2).copied()
-    };
     let stage = |(index, first): (usize, &StageTime)| {
-        let of =
-            |value: fn(&StageTime) -> Option<f64>| median(by_frame.iter().filter_map(|f| value(&f[index])).collect());
+        let of = |value: fn(&StageTime) -> Option<f64>| {
+            upper_median(&mut by_frame.iter().filter_map(|f| value(&f[index])).collect::<Vec<f64>>())
+        };
         StageTime {
             stage: first.stage,
             cpu_ms: of(|s| Some(s.cpu_ms)).unwrap_or(f64::NAN),

@@ -1,5 +1,6 @@
 //! Fisher information of an arc of measurements and the Cramér–Rao bound.
 
+use crate::stats::symmetric;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// Information about `n` unknowns, in the inverse squares of their units.
@@ -25,7 +26,7 @@ impl FisherInformation {
 
     /// Information given as a symmetric matrix.
     pub fn from_matrix(matrix: DMatrix<f64>) -> Self {
-        FisherInformation { matrix: (&matrix + matrix.transpose()) * 0.5 }
+        FisherInformation { matrix: symmetric(&matrix) }
     }
 
     /// Adds one Gaussian measurement by the derivative (measurements × unknowns) of its whitened residual (unit

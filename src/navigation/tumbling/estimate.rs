@@ -7,7 +7,7 @@ use super::pair::{RotationPair, usable_pairs};
 use super::result::{PairCount, TumblingResult};
 use super::shooting::{ShootingFit, seconds, shoot, shooting_epochs};
 use crate::observations::RelativeRotation;
-use nalgebra::SMatrix;
+pub(super) use crate::stats::symmetric;
 
 /// Attitude, rate and inertia ratios at each picture of `frame_times_ns`, from the rotations with status ok between them.
 ///
@@ -63,8 +63,4 @@ fn filter_as_the_paper(
     let residual_rms_sigma = (squares / innovations.max(1) as f64).sqrt();
     let count = PairCount { used, given: pairs.len(), residual_rms_sigma };
     Ok(TumblingResult::new(epochs, filter.inertia(), &filter.inertia_covariance(), Vec::new(), count))
-}
-
-pub(super) fn symmetric<const N: usize>(matrix: &SMatrix<f64, N, N>) -> SMatrix<f64, N, N> {
-    (matrix + matrix.transpose()) * 0.5
 }

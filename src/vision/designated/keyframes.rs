@@ -4,6 +4,7 @@
 //! joint covariance of the drifts, the mean of what the past pictures say has the least variance that weights can give
 //! (best linear unbiased estimate), and an honest one.
 
+use crate::stats::symmetric;
 use crate::vision::front_end::DesignatedStep;
 use image::GrayImage;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
@@ -110,8 +111,7 @@ impl Keyframes {
         let with_past = DVector::from_fn(self.kept.len(), |k, _| {
             ties.iter().zip(weights.iter()).map(|(tie, w)| w * self.drift[(tie.from, k)]).sum()
         });
-        let carried = newest.linear * from.first_px2 * newest.linear.transpose();
-        let first_px2 = (carried + carried.transpose()) * 0.5;
+        let first_px2 = symmetric(&(newest.linear * from.first_px2 * newest.linear.transpose()));
         let step = DesignatedStep {
             t_ns,
             pixel_px: ties.iter().zip(weights.iter()).map(|(tie, w)| tie.pixel_px * *w).sum(),

@@ -2,7 +2,10 @@
 
 use crate::geometry::{Camera, so3};
 use crate::observations::PredictedCamera;
-use nalgebra::{Isometry3, Matrix2x6, Matrix3, Matrix6, Vector2, Vector3, Vector6};
+use crate::stats::{
+    LeastSquares, LeastSquaresOptions, NORMAL_MEDIAN_2D, NormalEquations, Steps, Stop, minimize, upper_median,
+};
+use nalgebra::{Const, Isometry3, Matrix2x6, Matrix3, Matrix6, Vector2, Vector3, Vector6};
 
 /// A point of the map in the site frame (m), and its pixel.
 #[derive(Debug, Clone, Copy)]
@@ -23,8 +26,12 @@ pub(super) struct PoseFit {
     pub(super) scale: f64,
 }
 
-/// Gauss–Newton steps, at most.
-const MOST_STEPS: usize = 20;
+/// Gauss–Newton steps whose weights follow the residuals, so that no cost can be compared.
+const DESCENT: LeastSquaresOptions =
+    LeastSquaresOptions { steps: Steps::Full, most_steps: 20, least_step: 1.0, least_drop_share: 0.0, least_drop: 0.0 };
+/// Least turn and shift that count as a step.
+const LEAST_TURN_RAD: f64 = 1e-9;
+const LEAST_SHIFT_M: f64 = 1e-5;
 /// Residuals beyond this many robust 1σ count less and less (Geman and McClure's weights).
 const SOFT: f64 = 3.0;
 /// That robust 1σ is no less than this.
@@ -60,58 +67,75 @@ pub(super) fn fit_pose(
     predicted: &PredictedCamera,
     start: &Isometry3<f64>,
 ) -> Option<PoseFit> {
-    let mut pose = *start;
-    let (mut residuals_px, mut scale) = residuals(camera, &pose, points);
-    for _ in 0..MOST_STEPS {
-        let (mut normal, mut right) = prior(predicted, &pose);
-        for (point, residual) in points.iter().zip(&residuals_px) {
-            let Some((_, jacobian)) = pixel_with_jacobian(camera, &pose, &point.point_in_site_m) else { continue };
-            let unit = residual.norm() / (SOFT * scale * point.sigma_px);
-            let weight = (1.0 / (1.0 + unit * unit).powi(2)) / (scale * point.sigma_px).powi(2);
-            normal += jacobian.transpose() * jacobian * weight;
-            right += jacobian.transpose() * residual * weight;
-        }
-        let step = normal.cholesky()?.solve(&right);
-        if !step.iter().all(|v| v.is_finite()) {
-            return None;
-        }
-        pose = moved(&pose, &step);
-        (residuals_px, scale) = residuals(camera, &pose, points);
-        if step.fixed_rows::<3>(0).norm() < 1e-9 && step.fixed_rows::<3>(3).norm() < 1e-5 {
-            break;
-        }
-    }
-    Some(PoseFit { camera_from_site: pose, residuals_px, scale })
+    let problem = PoseProblem { camera, points, predicted };
+    let end = minimize(&problem, PoseFit::at(*start, camera, points), &DESCENT);
+    (end.stop != Stop::Singular).then_some(end.state)
 }
 
-/// Normal matrix and right side of the prediction at a pose. A shift τ in camera axes moves the camera by -Rᵀτ.
-fn prior(predicted: &PredictedCamera, pose: &Isometry3<f64>) -> (Matrix6<f64>, Vector6<f64>) {
+/// Points that pull at a pose, by Geman and McClure's weights of their residuals there.
+struct PoseProblem<'a> {
+    camera: &'a Camera,
+    points: &'a [Pointing],
+    predicted: &'a PredictedCamera,
+}
+
+impl LeastSquares for PoseProblem<'_> {
+    type Size = Const<6>;
+    type State = PoseFit;
+
+    fn normal_equations(&self, fit: &PoseFit) -> NormalEquations<Const<6>> {
+        let pose = &fit.camera_from_site;
+        let mut normal = prior(self.predicted, pose);
+        for (point, residual) in self.points.iter().zip(&fit.residuals_px) {
+            let Some((_, jacobian)) = pixel_with_jacobian(self.camera, pose, &point.point_in_site_m) else { continue };
+            let unit = residual.norm() / (SOFT * fit.scale * point.sigma_px);
+            let weight = (1.0 / (1.0 + unit * unit).powi(2)) / (fit.scale * point.sigma_px).powi(2);
+            normal.information += jacobian.transpose() * jacobian * weight;
+            normal.right_side += jacobian.transpose() * residual * weight;
+            normal.cost += 0.5 * weight * residual.norm_squared();
+        }
+        normal
+    }
+
+    fn moved(&self, fit: &PoseFit, step: &Vector6<f64>) -> Option<PoseFit> {
+        Some(PoseFit::at(moved(&fit.camera_from_site, step), self.camera, self.points))
+    }
+
+    /// In units of the least turn and shift.
+    fn length(&self, step: &Vector6<f64>) -> f64 {
+        let (turn_rad, shift_m) = (step.fixed_rows::<3>(0).norm(), step.fixed_rows::<3>(3).norm());
+        (turn_rad / LEAST_TURN_RAD).max(shift_m / LEAST_SHIFT_M)
+    }
+}
+
+/// Normal equations of the prediction at a pose. A shift τ in camera axes moves the camera by -Rᵀτ.
+fn prior(predicted: &PredictedCamera, pose: &Isometry3<f64>) -> NormalEquations<Const<6>> {
     let turn_1_rad2 = predicted.sigma_attitude_rad.powi(-2);
     let shift_1_m2 = predicted.sigma_position_m.powi(-2);
     let turned = so3::log(&(predicted.camera_from_site.rotation * pose.rotation.inverse()));
     let place = |p: &Isometry3<f64>| p.inverse().translation.vector;
     let moved_m = -(pose.rotation * (place(&predicted.camera_from_site) - place(pose)));
-    let mut normal = Matrix6::zeros();
-    normal.fixed_view_mut::<3, 3>(0, 0).copy_from(&(Matrix3::identity() * turn_1_rad2));
-    normal.fixed_view_mut::<3, 3>(3, 3).copy_from(&(Matrix3::identity() * shift_1_m2));
-    let mut right = Vector6::zeros();
-    right.fixed_rows_mut::<3>(0).copy_from(&(turned * turn_1_rad2));
-    right.fixed_rows_mut::<3>(3).copy_from(&(moved_m * shift_1_m2));
-    (normal, right)
+    let mut information = Matrix6::zeros();
+    information.fixed_view_mut::<3, 3>(0, 0).copy_from(&(Matrix3::identity() * turn_1_rad2));
+    information.fixed_view_mut::<3, 3>(3, 3).copy_from(&(Matrix3::identity() * shift_1_m2));
+    let mut right_side = Vector6::zeros();
+    right_side.fixed_rows_mut::<3>(0).copy_from(&(turned * turn_1_rad2));
+    right_side.fixed_rows_mut::<3>(3).copy_from(&(moved_m * shift_1_m2));
+    let cost = 0.5 * (turned.norm_squared() * turn_1_rad2 + moved_m.norm_squared() * shift_1_m2);
+    NormalEquations { information, right_side, cost }
 }
 
-/// Residuals, and the robust 1σ of a coordinate in units of the points' own.
-fn residuals(camera: &Camera, pose: &Isometry3<f64>, points: &[Pointing]) -> (Vec<Vector2<f64>>, f64) {
-    let residual = |point: &Pointing| match pixel_with_jacobian(camera, pose, &point.point_in_site_m) {
-        Some((pixel_px, _)) => point.pixel_px - pixel_px,
-        None => Vector2::repeat(f64::INFINITY),
-    };
-    let all: Vec<Vector2<f64>> = points.iter().map(residual).collect();
-    let mut sizes: Vec<f64> = all.iter().zip(points).map(|(r, p)| r.norm() / p.sigma_px).collect();
-    sizes.sort_by(f64::total_cmp);
-    // The median length of a vector of two standard normal numbers is 1.1774.
-    let scale = sizes.get(sizes.len() / 2).map_or(1.0, |median| median / 1.1774);
-    (all, scale.clamp(LEAST_SCALE, 1e6))
+impl PoseFit {
+    fn at(camera_from_site: Isometry3<f64>, camera: &Camera, points: &[Pointing]) -> PoseFit {
+        let residual = |point: &Pointing| match pixel_with_jacobian(camera, &camera_from_site, &point.point_in_site_m) {
+            Some((pixel_px, _)) => point.pixel_px - pixel_px,
+            None => Vector2::repeat(f64::INFINITY),
+        };
+        let residuals_px: Vec<Vector2<f64>> = points.iter().map(residual).collect();
+        let mut sizes: Vec<f64> = residuals_px.iter().zip(points).map(|(r, p)| r.norm() / p.sigma_px).collect();
+        let scale = upper_median(&mut sizes).map_or(1.0, |median| median / NORMAL_MEDIAN_2D);
+        PoseFit { camera_from_site, residuals_px, scale: scale.clamp(LEAST_SCALE, 1e6) }
+    }
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use super::models::General;
 use super::normalized_match::Sight;
 use super::plane::GroundFit;
 use crate::observations::RotationModel;
+use crate::stats::upper_median;
 use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
 
 /// Relief shows where the ratio of the variances of its parallax and of the noise, added up over the matches, exceeds this.
@@ -60,9 +61,8 @@ fn relief_over_noise(fit: &GroundFit, sights: &[Sight]) -> f64 {
         Some(g.dot(&(seen.nominal.try_inverse()? * g)) * ground.relief_variance / ground.noise_variance)
     };
     let mut ratios: Vec<f64> = fit.agreeing(sights).iter().filter_map(ratio).collect();
-    let middle = ratios.len() / 2;
     let count = ratios.len() as f64;
-    if ratios.is_empty() { 0.0 } else { *ratios.select_nth_unstable_by(middle, f64::total_cmp).1 * count }
+    upper_median(&mut ratios).unwrap_or(0.0) * count
 }
 
 /// The same motion refined on the epipolar constraint, over the matches that agree with the ground: what lies far along

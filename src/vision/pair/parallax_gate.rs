@@ -8,6 +8,7 @@ use super::models::Plane;
 use super::normalized_match::Sight;
 use super::residual::{Relation, residual};
 use super::robust_fit::{Loss, descend};
+use crate::stats::upper_median;
 use nalgebra::Matrix3;
 
 /// A parallax greater than this many times the median is implausible.
@@ -29,7 +30,7 @@ pub(super) fn plausible(
     let mut plane = *start;
     let mut size = median_parallax(&plane, &agreeing);
     for _ in 0..2 {
-        plane = descend(plane, &agreeing, Loss::Cauchy((2.0 * size).max(1.0)), 8).0;
+        plane = descend(plane, &agreeing, Loss::Cauchy((2.0 * size).max(1.0)), 8).state;
         size = median_parallax(&plane, &agreeing);
     }
     let limit = (PARALLAX_LIMIT * size).max(widest);
@@ -44,6 +45,5 @@ fn matrix_of(plane: &Plane) -> Matrix3<f64> {
 fn median_parallax(plane: &Plane, sights: &[Sight]) -> f64 {
     let matrix = matrix_of(plane);
     let mut sizes: Vec<f64> = sights.iter().map(|s| residual(Relation::Transfer, &matrix, s).norm()).collect();
-    let middle = sizes.len() / 2;
-    *sizes.select_nth_unstable_by(middle, f64::total_cmp).1
+    upper_median(&mut sizes).expect("a dozen matches at least")
 }

@@ -9,6 +9,7 @@ use super::solution::{PairHints, PairSolution, PixelMatches, is_determined};
 use super::usac;
 use crate::geometry::Camera;
 use crate::observations::PairStatus;
+use crate::stats::upper_median;
 use crate::vision::error::VisionError;
 use nalgebra::Matrix3;
 
@@ -37,7 +38,7 @@ pub fn relative_rotation(
         return Ok(PairSolution::failed(PairStatus::Rejected, all.len()));
     }
     let essential = usac::essential(&usable, focal_px, config)?;
-    let widest = config.threshold_px * 2.0 / median(matches.sigma_px);
+    let widest = config.threshold_px * 2.0 / upper_median(&mut matches.sigma_px.to_vec()).unwrap_or(1.0);
     let fits = Fits::new(&usable, widest, (homography.as_ref(), essential.as_ref()), (hints, config));
     let mut solution = judge(&fits, (&usable, widest), (hints, config));
     solution.inliers = spread(&solution.inliers, all.iter().map(Option::is_some));
@@ -124,10 +125,4 @@ fn choose<'a>(
     // The ground's slope changes little from picture to picture: the nearer normal must be near, and clearly nearer.
     let clear = best < 0.15 && next > 2.0 * best && next > best + 0.1;
     if clear { Ok(all[0]) } else { Err(PairStatus::Degenerate) }
-}
-
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(1.0)
 }

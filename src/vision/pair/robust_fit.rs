@@ -2,7 +2,14 @@
 
 use super::normalized_match::Sight;
 use super::residual::{PairModel, Relation, linearized, residual};
-use nalgebra::{SMatrix, SVector};
+use crate::stats::{
+    Damping, LeastSquares, LeastSquaresOptions, Minimum, NORMAL_MEDIAN, NORMAL_MEDIAN_2D, NormalEquations, Steps,
+    minimize, symmetric, upper_median,
+};
+use nalgebra::{Const, SMatrix, SVector};
+use std::marker::PhantomData;
+
+const DAMPING: Damping = Damping { start: 1e-4, raise: 10.0, lower: 0.1, least: 0.0, most: 1e6, takes_level: false };
 
 /// How residuals (in units of their σ) count.
 #[derive(Debug, Clone, Copy)]
@@ -24,25 +31,21 @@ impl Loss {
     }
 }
 
-/// Normal equations at a model.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Normal<const N: usize> {
-    pub(super) information: SMatrix<f64, N, N>,
-    pub(super) gradient: SVector<f64, N>,
-    pub(super) cost: f64,
-}
-
 /// Normal equations of all matches at a model.
-pub(super) fn normal_equations<const N: usize, M: PairModel<N>>(model: &M, sights: &[Sight], loss: Loss) -> Normal<N> {
+pub(super) fn normal_equations<const N: usize, M: PairModel<N>>(
+    model: &M,
+    sights: &[Sight],
+    loss: Loss,
+) -> NormalEquations<Const<N>> {
     let linear = model.matrix();
-    let mut normal = Normal { information: SMatrix::zeros(), gradient: SVector::zeros(), cost: 0.0 };
+    let mut normal = NormalEquations { information: SMatrix::zeros(), right_side: SVector::zeros(), cost: 0.0 };
     for sight in sights {
         let (r, jacobian, gradient) = linearized(M::RELATION, &linear, sight);
         let (cost, weight) = loss.cost_and_weight(r.norm_squared());
         normal.cost += cost;
         if weight > 0.0 {
             normal.information += jacobian.tr_mul(&jacobian) * weight;
-            normal.gradient += gradient * weight;
+            normal.right_side -= gradient * weight;
         }
     }
     normal
@@ -54,42 +57,51 @@ pub(super) fn cost<const N: usize, M: PairModel<N>>(model: &M, sights: &[Sight],
     sights.iter().map(|s| loss.cost_and_weight(residual(M::RELATION, &matrix, s).norm_squared()).0).sum()
 }
 
-/// Levenberg-Marquardt from `start`; returns the best model and the normal equations there.
+/// Matches that pull at a model.
+struct Pull<'a, const N: usize, M> {
+    sights: &'a [Sight],
+    loss: Loss,
+    model: PhantomData<M>,
+}
+
+impl<const N: usize, M: PairModel<N>> LeastSquares for Pull<'_, N, M> {
+    type Size = Const<N>;
+    type State = M;
+
+    fn normal_equations(&self, model: &M) -> NormalEquations<Const<N>> {
+        normal_equations(model, self.sights, self.loss)
+    }
+
+    fn cost(&self, model: &M) -> f64 {
+        cost(model, self.sights, self.loss)
+    }
+
+    fn moved(&self, model: &M, step: &SVector<f64, N>) -> Option<M> {
+        Some(model.moved(step))
+    }
+
+    fn damp(&self, _model: &M, information: &mut SMatrix<f64, N, N>, damping: f64) {
+        for i in 0..N {
+            information[(i, i)] += damping * information[(i, i)] + 1e-12;
+        }
+    }
+}
+
+/// Levenberg-Marquardt from `start`.
 pub(super) fn descend<const N: usize, M: PairModel<N>>(
     start: M,
     sights: &[Sight],
     loss: Loss,
     iterations: usize,
-) -> (M, Normal<N>) {
-    let mut model = start;
-    let mut normal = normal_equations(&model, sights, loss);
-    let mut damping = 1e-4;
-    for _ in 0..iterations {
-        let mut damped = normal.information;
-        for i in 0..N {
-            damped[(i, i)] += damping * normal.information[(i, i)] + 1e-12;
-        }
-        let Some(step) = damped.cholesky().map(|c| -c.solve(&normal.gradient)) else {
-            damping = (damping * 10.0).max(1e-4);
-            continue;
-        };
-        let candidate = model.moved(&step);
-        if cost(&candidate, sights, loss) < normal.cost {
-            let before = normal.cost;
-            model = candidate;
-            normal = normal_equations(&model, sights, loss);
-            damping *= 0.1;
-            if before - normal.cost < 1e-7 * before || step.norm() < 1e-12 {
-                break;
-            }
-        } else {
-            damping *= 10.0;
-            if damping > 1e6 {
-                break;
-            }
-        }
-    }
-    (model, normal)
+) -> Minimum<M, Const<N>> {
+    let options = LeastSquaresOptions {
+        steps: Steps::Damped(DAMPING),
+        most_steps: iterations,
+        least_step: 1e-12,
+        least_drop_share: 1e-7,
+        least_drop: 0.0,
+    };
+    minimize(&Pull { sights, loss, model: PhantomData }, start, &options)
 }
 
 /// A model fitted to its inliers, with the noise that it found.
@@ -123,7 +135,7 @@ fn gate_sigma(relation: Relation) -> f64 {
 
 /// Median of |r| over σ, for one and two residuals a match.
 fn median_ratio(relation: Relation) -> f64 {
-    if relation == Relation::Epipolar { 0.6745 } else { 1.1774 }
+    if relation == Relation::Epipolar { NORMAL_MEDIAN } else { NORMAL_MEDIAN_2D }
 }
 
 /// Refines `start` on the matches that agree with it, estimating their noise on the way: Cauchy, then least squares on
@@ -136,7 +148,7 @@ pub(super) fn fit<const N: usize, M: PairModel<N>>(start: M, sights: &[Sight], w
             0 => Loss::Cauchy(1.5 * scale),
             _ => Loss::Truncated(gate_sigma(M::RELATION) * scale),
         };
-        model = descend(model, sights, loss, 12).0;
+        model = descend(model, sights, loss, 12).state;
         let next = robust_scale::<N, M>(&model, sights, gate_sigma(M::RELATION) * scale * 1.2);
         let settled = round >= 2 && (next / scale - 1.0).abs() < 0.02;
         scale = next;
@@ -155,8 +167,7 @@ pub(super) fn robust_scale<const N: usize, M: PairModel<N>>(model: &M, sights: &
     if sizes.len() < 8 {
         return widest / gate_sigma(M::RELATION);
     }
-    let middle = sizes.len() / 2;
-    let median = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let median = upper_median(&mut sizes).expect("eight at least");
     (median / median_ratio(M::RELATION)).clamp(0.03, widest / gate_sigma(M::RELATION))
 }
 
@@ -174,11 +185,11 @@ pub(super) fn observed_information<const N: usize, M: PairModel<N>>(
     for j in 0..N {
         let mut step = SVector::<f64, N>::zeros();
         step[j] = STEP;
-        let ahead = normal_equations(&model.moved(&step), sights, loss).gradient;
-        let behind = normal_equations(&model.moved(&-step), sights, loss).gradient;
-        information.set_column(j, &((ahead - behind) / (2.0 * STEP)));
+        let ahead = normal_equations(&model.moved(&step), sights, loss).right_side;
+        let behind = normal_equations(&model.moved(&-step), sights, loss).right_side;
+        information.set_column(j, &((behind - ahead) / (2.0 * STEP)));
     }
-    (information + information.transpose()) * 0.5
+    symmetric(&information)
 }
 
 fn finish<const N: usize, M: PairModel<N>>(model: M, sights: &[Sight], scale: f64) -> PairFit<N, M> {

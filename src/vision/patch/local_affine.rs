@@ -1,5 +1,6 @@
 //! An affine map fitted to the matches near a point.
 
+use crate::stats::upper_median;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 /// `p -> linear p + shift`.
@@ -58,9 +59,7 @@ pub fn fit_affine(about_px: &Vector2<f64>, matches: &[Match], fewest: usize) -> 
     for _ in 0..6 {
         let residual = |(_, m): &(f64, &Match)| (m.1 - fit.0 * (m.0 - about_px).push(1.0)).norm() / m.2;
         let sizes: Vec<f64> = near.iter().map(residual).collect();
-        let mut sorted = sizes.clone();
-        sorted.sort_by(f64::total_cmp);
-        let limit = (3.0 * sorted[sorted.len() / 2] / 1.18).max(1.0);
+        let limit = (3.0 * upper_median(&mut sizes.clone())? / 1.18).max(1.0);
         weights = prior.iter().zip(&sizes).map(|(w, s)| w / (1.0 + (s / limit).powi(2)).powi(2)).collect();
         fit = solve(about_px, &near, &weights)?;
     }

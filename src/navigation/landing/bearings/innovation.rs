@@ -7,6 +7,7 @@ use crate::navigation::landing::error_state::{
     ATTITUDE, DescentEstimate, DescentState, FilterKind, LARGEST, POSITION, RelativeJacobian,
 };
 use crate::navigation::landmark::projector_over_range;
+use crate::stats::symmetric;
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
 
 /// The linearised bearing of one point, across its measured direction: equations (12) and (14). The derivatives are in
@@ -64,7 +65,7 @@ impl BearingInnovation {
         for (start, block) in self.blocks() {
             s += Matrix2x3::from_columns(&[pairs[start], pairs[start + 1], pairs[start + 2]]) * block.transpose();
         }
-        (s + s.transpose()) * 0.5
+        symmetric(&s)
     }
 }
 

@@ -7,6 +7,7 @@ use super::state_core::Core;
 use super::transition::Transition;
 use super::{hybrid, standard};
 use crate::navigation::landing::inertial::{ImuIncrement, Planet};
+use crate::stats::symmetric;
 use nalgebra::{SMatrix, Vector3};
 
 impl FilterKind {
@@ -119,6 +120,6 @@ impl FilterKind {
         if self == FilterKind::Hybrid {
             p += hybrid::site_second_moment(&estimate.state, &lander);
         }
-        (p + p.transpose()) * 0.5
+        symmetric(&p)
     }
 }

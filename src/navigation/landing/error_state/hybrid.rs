@@ -10,6 +10,7 @@ use super::state_core::Core;
 use super::transition::{LandmarkTransition, Transition};
 use crate::geometry::so3::{exp, hat};
 use crate::navigation::landing::inertial::{ImuIncrement, Planet};
+use crate::stats::symmetric;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 /// C⁺ = Ĉ exp(-ψ×), r⁺ = C⁺ᵀ (Ĉ r̂ + s̃), and the same for velocity and landmarks.
@@ -199,8 +200,7 @@ fn second_derivative(i: usize, start: usize, vector: &Vector3<f64>) -> SMatrix<f
     let mixed = -hat(&axis);
     a.fixed_view_mut::<3, 3>(ATTITUDE, start).copy_from(&mixed);
     a.fixed_view_mut::<3, 3>(start, ATTITUDE).copy_from(&mixed.transpose());
-    let outer = axis * vector.transpose();
-    let bend = (outer + outer.transpose()) * 0.5 - Matrix3::identity() * vector[i];
+    let bend = symmetric(&(axis * vector.transpose())) - Matrix3::identity() * vector[i];
     a.fixed_view_mut::<3, 3>(ATTITUDE, ATTITUDE).copy_from(&bend);
     a
 }

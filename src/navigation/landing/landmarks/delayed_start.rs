@@ -7,6 +7,7 @@
 use super::initialize::{InitializationModel, augmented, bearing_noise};
 use crate::navigation::landing::bearings::BearingObservation;
 use crate::navigation::landing::error_state::{ATTITUDE, DescentEstimate, LandmarkRole, POSITION, UnknownLandmark};
+use crate::stats::symmetric;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// The estimate with the ray of a bearing, which is consumed: where the camera is, and the point at `reach_m` along it.
@@ -96,7 +97,7 @@ fn replaced(
     let mut covariance = &by_old * &estimate.covariance * by_old.transpose();
     let mut corner = covariance.fixed_view_mut::<3, 3>(start, start);
     corner += own;
-    let covariance = (&covariance + covariance.transpose()) * 0.5;
+    let covariance = symmetric(&covariance);
     let mut state = estimate.state.clone();
     state.landmarks[index] = landmark;
     state.landmarks.remove(index + 1);

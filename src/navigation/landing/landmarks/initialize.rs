@@ -10,6 +10,7 @@ use crate::navigation::landing::error_state::{
 };
 use crate::navigation::landing::inertial::ImuBiases;
 use crate::navigation::landmark::GroundPrior;
+use crate::stats::symmetric;
 use nalgebra::{DMatrix, Matrix3, Matrix3xX, SMatrix, Vector3};
 
 /// The estimate before any image, its covariance carried into the filter's coordinates; with biases of 0 where the
@@ -118,7 +119,7 @@ pub(super) fn augmented(
     let mut all = estimate.covariance.clone().resize(n + 3, n + 3, 0.0);
     all.view_mut((n, 0), (3, n)).copy_from(&rows);
     all.view_mut((0, n), (n, 3)).copy_from(&rows.transpose());
-    all.fixed_view_mut::<3, 3>(n, n).copy_from(&((corner + corner.transpose()) * 0.5));
+    all.fixed_view_mut::<3, 3>(n, n).copy_from(&symmetric(&corner));
     let mut state = estimate.state.clone();
     state.landmarks.push(landmark);
     DescentEstimate { state, covariance: all }

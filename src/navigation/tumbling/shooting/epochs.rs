@@ -1,8 +1,8 @@
 //! Times of the pictures that shooting works at.
 
 use super::shooting::ShootingFit;
-use crate::navigation::tumbling::estimate::symmetric;
 use crate::navigation::tumbling::result::{InertiaKnowledge, TumblingEpoch};
+use crate::stats::symmetric;
 
 /// Times since the first picture in s.
 pub fn seconds(frame_times_ns: &[i64]) -> Vec<f64> {

@@ -3,17 +3,21 @@
 use super::initial::Guess;
 use crate::navigation::tumbling::motion::{InertiaRatios, SpinState, TrajectoryPoint, propagate};
 use crate::navigation::tumbling::pair::RotationPair;
-use nalgebra::{SMatrix, SVector, UnitQuaternion, Vector6};
+use crate::stats::{Damping, LeastSquares, LeastSquaresOptions, NormalEquations, Steps, minimize};
+use nalgebra::{Const, SMatrix, SVector, UnitQuaternion, Vector6};
 
 type Vector8 = SVector<f64, 8>;
 type Matrix8 = SMatrix<f64, 8, 8>;
 type Vector9 = SVector<f64, 9>;
 type Matrix9 = SMatrix<f64, 9, 9>;
 
-const MOST_ITERATIONS: usize = 60;
-
-/// Relative drop of the cost that counts as none.
-const NO_PROGRESS: f64 = 1e-10;
+const DESCENT: LeastSquaresOptions = LeastSquaresOptions {
+    steps: Steps::Damped(Damping { start: 1e-4, raise: 8.0, lower: 0.15, least: 1e-12, most: 1e12, takes_level: true }),
+    most_steps: 60,
+    least_step: 0.0,
+    least_drop_share: 1e-10,
+    least_drop: 1e-16,
+};
 
 /// What is fitted: pairs, the times of their pictures, a robust width and prior information on the ratios.
 #[derive(Clone, Copy)]
@@ -45,24 +49,7 @@ pub struct Fit {
 impl FitProblem<'_> {
     /// The motion nearest to the pairs, from a guess; `None` if the guess cannot be integrated.
     pub fn solve(&self, guess: &Guess) -> Option<Fit> {
-        let mut fit = self.evaluate(guess)?;
-        let mut damping = 1e-4;
-        for _ in 0..MOST_ITERATIONS {
-            let Some(candidate) = self.stepped(&fit, damping) else {
-                damping *= 8.0;
-                if damping > 1e12 {
-                    break;
-                }
-                continue;
-            };
-            let drop = fit.cost - candidate.cost;
-            fit = candidate;
-            damping = (damping * 0.15).max(1e-12);
-            if drop <= NO_PROGRESS * fit.cost + 1e-16 {
-                break;
-            }
-        }
-        Some(fit)
+        Some(minimize(self, self.evaluate(guess)?, &DESCENT).state)
     }
 
     /// The motion of a guess as it is; `None` if it cannot be integrated.
@@ -70,30 +57,14 @@ impl FitProblem<'_> {
         self.evaluate(guess)
     }
 
-    /// One damped step that lowers the cost; `None` if there is none at this damping.
-    fn stepped(&self, fit: &Fit, damping: f64) -> Option<Fit> {
-        let speed = fit.guess.rate_rad_s.norm();
+    /// Normal matrix and right side of a step of (rate over its size, shape), the scale of the shape left free.
+    fn free_equations(&self, fit: &Fit) -> (Matrix9, Vector9) {
         let mut by_parameters = SMatrix::<f64, 8, 9>::zeros();
-        by_parameters.fixed_view_mut::<3, 3>(0, 0).fill_diagonal(speed);
+        by_parameters.fixed_view_mut::<3, 3>(0, 0).fill_diagonal(fit.guess.rate_rad_s.norm());
         by_parameters.fixed_view_mut::<5, 6>(3, 3).copy_from(&fit.ratios_by_shape);
         let (prior_information, prior_gradient, _) = self.prior_terms(&fit.inertia);
-        let mut normal: Matrix9 = by_parameters.transpose() * (fit.information + prior_information) * by_parameters;
-        let gradient: Vector9 = by_parameters.transpose() * (fit.gradient + prior_gradient);
-        let largest = normal.diagonal().max();
-        // The scale of C means nothing: a row of its own holds it.
-        let scale = fit.guess.shape.entries();
-        let mut held = normal.fixed_view_mut::<6, 6>(3, 3);
-        held += scale * scale.transpose() * largest;
-        for i in 0..9 {
-            normal[(i, i)] += damping * normal[(i, i)].max(1e-9 * largest);
-        }
-        let step = normal.cholesky()?.solve(&gradient);
-        let shape_step: Vector6<f64> = step.fixed_rows::<6>(3).into_owned();
-        let moved = Guess {
-            rate_rad_s: fit.guess.rate_rad_s + step.fixed_rows::<3>(0) * speed,
-            shape: fit.guess.shape.moved(&shape_step),
-        };
-        self.evaluate(&moved).filter(|candidate| candidate.cost <= fit.cost)
+        let normal = by_parameters.transpose() * (fit.information + prior_information) * by_parameters;
+        (normal, by_parameters.transpose() * (fit.gradient + prior_gradient))
     }
 
     fn evaluate(&self, guess: &Guess) -> Option<Fit> {
@@ -121,5 +92,39 @@ impl FitProblem<'_> {
         information.fixed_view_mut::<5, 5>(3, 3).copy_from(self.prior);
         gradient.fixed_rows_mut::<5>(3).copy_from(&pull);
         (information, gradient, 0.5 * away.dot(&pull))
+    }
+}
+
+impl LeastSquares for FitProblem<'_> {
+    type Size = Const<9>;
+    type State = Fit;
+
+    fn normal_equations(&self, fit: &Fit) -> NormalEquations<Const<9>> {
+        let (mut information, right_side) = self.free_equations(fit);
+        let largest = information.diagonal().max();
+        // The scale of C means nothing: a row of its own holds it.
+        let scale = fit.guess.shape.entries();
+        let mut held = information.fixed_view_mut::<6, 6>(3, 3);
+        held += scale * scale.transpose() * largest;
+        NormalEquations { information, right_side, cost: fit.cost }
+    }
+
+    fn cost(&self, fit: &Fit) -> f64 {
+        fit.cost
+    }
+
+    fn moved(&self, fit: &Fit, step: &Vector9) -> Option<Fit> {
+        let shape_step: Vector6<f64> = step.fixed_rows::<6>(3).into_owned();
+        self.evaluate(&Guess {
+            rate_rad_s: fit.guess.rate_rad_s + step.fixed_rows::<3>(0) * fit.guess.rate_rad_s.norm(),
+            shape: fit.guess.shape.moved(&shape_step),
+        })
+    }
+
+    fn damp(&self, fit: &Fit, information: &mut Matrix9, damping: f64) {
+        let largest = self.free_equations(fit).0.diagonal().max();
+        for i in 0..9 {
+            information[(i, i)] += damping * information[(i, i)].max(1e-9 * largest);
+        }
     }
 }

@@ -3,6 +3,7 @@
 use crate::geometry::so3::{exp, log};
 use crate::navigation::tumbling::motion::{FreeBody, InertiaShape};
 use crate::navigation::tumbling::pair::RotationPair;
+use crate::stats::upper_median;
 use nalgebra::{Matrix3, SMatrix, SymmetricEigen, UnitQuaternion, Vector3};
 
 /// Pairs that span more pictures than this are not taken as a rate: their rotation may exceed half a turn.
@@ -71,14 +72,8 @@ fn gated_rate(raw: &[Option<Vector3<f64>>], k: usize) -> Option<Vector3<f64>> {
 }
 
 fn median_vector(vectors: &[Vector3<f64>]) -> Option<Vector3<f64>> {
-    if vectors.is_empty() {
-        return None;
-    }
-    Some(Vector3::from_fn(|axis, _| {
-        let mut values: Vec<f64> = vectors.iter().map(|v| v[axis]).collect();
-        values.sort_by(f64::total_cmp);
-        values[values.len() / 2]
-    }))
+    let along = |axis: usize| upper_median(&mut vectors.iter().map(|v| v[axis]).collect::<Vec<f64>>());
+    Some(Vector3::new(along(0)?, along(1)?, along(2)?))
 }
 
 /// Attitudes and rates (asteroid axes) at the middle of the intervals: `A_k = A_{k-1} R_Δkᵀ`.

@@ -7,13 +7,11 @@ use crate::navigation::tumbling::bounds::{INERTIA_UNIT, UndeterminedDirection};
 use crate::navigation::tumbling::config::TumblingConfig;
 use crate::navigation::tumbling::error::TumblingError;
 use crate::navigation::tumbling::pair::RotationPair;
+use crate::stats::{SQUARED_NORMAL_MEDIAN_3D, upper_median};
 use nalgebra::SMatrix;
 
 /// Picture intervals that the first arc holds at least.
 const LEAST_INTERVALS: usize = 20;
-
-/// Median of a χ² variable with 3 degrees of freedom.
-const MEDIAN_CHI_SQUARED_3: f64 = 2.365_974;
 
 /// Misfit in standard deviations beyond which the pairs and the motion have nothing to do with each other.
 const HOPELESS_SIGMA: f64 = 30.0;
@@ -72,7 +70,7 @@ fn fit_first_arc(
         Some(fit_robustly(&arc_pairs, times_s, prior, &start, config))
     });
     // Fits of different robust widths are compared by their median misfit.
-    fits.map(|fit| (median(misfits(&arc_pairs, &fit)), fit))
+    fits.map(|fit| (typical(misfits(&arc_pairs, &fit)), fit))
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, fit)| fit)
         .ok_or(TumblingError::TooFewPairs { usable: arc_pairs.len(), given: pairs.len(), needed: times_s.len() - 1 })
@@ -105,14 +103,13 @@ fn misfits(pairs: &[RotationPair], fit: &Fit) -> Vec<f64> {
     pairs.iter().map(|p| (p.whitening * p.misfit_rad(&fit.points)).norm()).collect()
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
+fn typical(mut values: Vec<f64>) -> f64 {
+    upper_median(&mut values).expect("an arc without pairs is refused at first")
 }
 
 /// How many times larger than their covariances the misfits are, at least 1.
 fn robust_scale(misfits_sigma: Vec<f64>) -> f64 {
-    (median(misfits_sigma) / MEDIAN_CHI_SQUARED_3.sqrt()).max(1.0)
+    (typical(misfits_sigma) / SQUARED_NORMAL_MEDIAN_3D.sqrt()).max(1.0)
 }
 
 /// The last fit: bad pairs left out, undetermined directions held, the rest free.
@@ -155,11 +152,11 @@ impl ShootingFit {
 }
 
 fn refuse_hopeless(pairs: &[RotationPair], fit: &Fit) -> Result<(), TumblingError> {
-    let misfit_sigma = median(misfits(pairs, fit));
+    let misfit_sigma = typical(misfits(pairs, fit));
     if misfit_sigma <= HOPELESS_SIGMA {
         return Ok(());
     }
-    let misfit_rad = median(pairs.iter().map(|p| p.misfit_rad(&fit.points).norm()).collect());
+    let misfit_rad = typical(pairs.iter().map(|p| p.misfit_rad(&fit.points).norm()).collect());
     Err(TumblingError::NoConsistentMotion { misfit_deg: misfit_rad.to_degrees(), misfit_sigma })
 }
 

@@ -8,6 +8,7 @@ use super::problem::{CenterProblem, CenterSolution, CenteredPair};
 use super::start::{CenterView, best_start, is_near_side};
 use crate::geometry::so3;
 use crate::observations::{PairStatus, RotationModel};
+use crate::stats::median;
 use crate::vision::pair::config::FixedCenterConfig;
 use crate::vision::pair::covariance::{COEFFICIENTS, Size, White, refine, spread};
 use crate::vision::pair::models::{AboutCenter, WithCenter};
@@ -167,13 +168,11 @@ fn rate(found: &Option<AboutCenter>, pair: &CenteredPair) -> Option<Vector3<f64>
 fn neighbours_rate(rates: &[Option<Vector3<f64>>], index: usize) -> Option<Vector3<f64>> {
     let before = rates[..index].iter().rev().flatten().take(3);
     let near: Vec<&Vector3<f64>> = before.chain(rates[index + 1..].iter().flatten().take(3)).collect();
-    let median = |i: usize| {
-        let mut values: Vec<f64> = near.iter().map(|r| r[i]).collect();
-        values.sort_by(f64::total_cmp);
-        let n = values.len();
-        0.5 * (values[(n - 1) / 2] + values[n / 2])
-    };
-    (near.len() >= 2).then(|| Vector3::from_fn(|i, _| median(i)))
+    let along = |i: usize| median(&mut near.iter().map(|r| r[i]).collect::<Vec<f64>>());
+    if near.len() < 2 {
+        return None;
+    }
+    Some(Vector3::new(along(0)?, along(1)?, along(2)?))
 }
 
 fn is_stray(rate: &Vector3<f64>, expected: &Vector3<f64>, config: &FixedCenterConfig) -> bool {

@@ -4,6 +4,7 @@
 use super::problem::{CenterProblem, CenteredPair};
 use crate::geometry::so3;
 use crate::observations::PairStatus;
+use crate::stats::upper_median;
 use crate::vision::pair::cheirality::Cheirality;
 use crate::vision::pair::config::RotationConfig;
 use crate::vision::pair::models::AboutCenter;
@@ -35,8 +36,7 @@ impl CenterView {
         let all = sights(pair.matches.pair, pair.matches.sigma_px, problem.camera);
         let usable: Vec<Sight> = all.iter().flatten().copied().collect();
         let mut sigma: Vec<f64> = pair.matches.sigma_px.to_vec();
-        sigma.sort_by(f64::total_cmp);
-        let widest = 2.0 * config.threshold_px / sigma.get(sigma.len() / 2).copied().unwrap_or(config.sigma_px);
+        let widest = 2.0 * config.threshold_px / upper_median(&mut sigma).unwrap_or(config.sigma_px);
         let mut view = CenterView {
             sights: Vec::new(),
             kept: vec![false; all.len()],
@@ -112,8 +112,7 @@ fn is_still(sights: &[Sight]) -> bool {
         .iter()
         .map(|s| (s.to - s.from).norm_squared() / (s.from_covariance + s.to_covariance).trace().max(1e-300))
         .collect();
-    let middle = sizes.len() / 2;
-    *sizes.select_nth_unstable_by(middle, f64::total_cmp).1 < 4.0
+    upper_median(&mut sizes).is_some_and(|middle| middle < 4.0)
 }
 
 /// The best rotation about `center` from several starts; `None` where none is acceptable.
@@ -131,11 +130,12 @@ pub(super) fn best_start(
     let loss = Loss::Cauchy(view.widest);
     let mut screened: Vec<(f64, AboutCenter)> = Vec::new();
     for rotation in starts {
-        let (model, normal) = descend(AboutCenter { rotation: *rotation, center }, &few, loss, 12);
+        let end = descend(AboutCenter { rotation: *rotation, center }, &few, loss, 12);
+        let model = end.state;
         let known = |m: &AboutCenter| so3::log(&(m.rotation * model.rotation.inverse())).norm() < 1e-3;
         let acceptable = model.rotation.angle() < config.max_angle_rad && is_near_side(&model, &few);
         if acceptable && !screened.iter().any(|(_, m)| known(m)) {
-            screened.push((normal.cost, model));
+            screened.push((end.normal.cost, model));
         }
     }
     screened.sort_by(|a, b| a.0.total_cmp(&b.0));

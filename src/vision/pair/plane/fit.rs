@@ -2,9 +2,10 @@
 
 use super::model::{Axes, Ground, Information, PARAMETERS, Parameters, RELIEF};
 use super::start::with_variances;
+use crate::stats::{LeastSquares, LeastSquaresOptions, NormalEquations, Steps, minimize};
 use crate::vision::pair::covariance::{cells, covariance_of_rotation};
 use crate::vision::pair::normalized_match::Sight;
-use nalgebra::Matrix3;
+use nalgebra::{Const, Matrix3};
 
 /// A match further off than this many σ (two degrees of freedom) is wrong: the tail is below 0.3 %.
 pub(super) const GATE_SIGMA: f64 = 3.45;
@@ -17,11 +18,19 @@ pub struct GroundFit {
     pub inliers: Vec<bool>,
 }
 
-/// Sums over the matches that agree.
-struct Sums {
-    cost: f64,
-    score: Parameters,
-    information: Information,
+/// Scoring with halved steps.
+const SCORING: LeastSquaresOptions = LeastSquaresOptions {
+    steps: Steps::Halved(6),
+    most_steps: 10,
+    least_step: 0.0,
+    least_drop_share: 0.0,
+    least_drop: 1e-2,
+};
+
+/// The matches that agree with a ground.
+struct Agreeing<'a> {
+    sights: &'a [Sight],
+    inliers: &'a [bool],
 }
 
 impl GroundFit {
@@ -83,7 +92,7 @@ pub fn fit_ground(start: &Ground, sights: &[Sight], widest: f64, rounds: usize) 
     let mut ground = with_variances(start, sights, widest);
     let mut inliers = agreeing(&ground, sights);
     for _ in 0..rounds {
-        ground = score(ground, sights, &inliers);
+        ground = minimize(&Agreeing { sights, inliers: &inliers }, ground, &SCORING).state;
         let next = agreeing(&ground, sights);
         let settled = next == inliers;
         inliers = next;
@@ -100,60 +109,43 @@ fn agreeing(ground: &Ground, sights: &[Sight]) -> Vec<bool> {
     sights.iter().map(near).collect()
 }
 
-/// Scoring with halved steps on fixed matches.
-fn score(start: Ground, sights: &[Sight], inliers: &[bool]) -> Ground {
-    let mut ground = start;
-    let mut sums = sums(&ground, sights, inliers);
-    for _ in 0..10 {
-        let Some(step) = damped_step(&sums, &ground) else { break };
-        let mut moved = None;
-        for halvings in 0..6 {
-            let candidate = ground.moved(&(step * 0.5f64.powi(halvings)));
-            if cost(&candidate, sights, inliers) < sums.cost {
-                moved = Some(candidate);
-                break;
-            }
+impl Agreeing<'_> {
+    fn iter(&self) -> impl Iterator<Item = &Sight> {
+        self.sights.iter().zip(self.inliers).filter(|(_, inlier)| **inlier).map(|(sight, _)| sight)
+    }
+}
+
+impl LeastSquares for Agreeing<'_> {
+    type Size = Const<PARAMETERS>;
+    type State = Ground;
+
+    /// Score and information; relief that would become negative stays at nothing.
+    fn normal_equations(&self, ground: &Ground) -> NormalEquations<Const<PARAMETERS>> {
+        let axes = Axes::of(ground);
+        let (mut information, mut right_side, mut cost) = (Information::zeros(), Parameters::zeros(), 0.0);
+        for evidence in self.iter().filter_map(|sight| ground.evidence(&axes, sight)) {
+            cost += evidence.cost;
+            right_side += evidence.score();
+            information += evidence.information();
         }
-        let Some(next) = moved else { break };
-        let gain = sums.cost;
-        ground = next;
-        sums = self::sums(&ground, sights, inliers);
-        if gain - sums.cost < 1e-2 {
-            break;
+        if ground.relief_variance <= 0.0 && right_side[RELIEF] <= 0.0 {
+            hold_relief(&mut information);
+            right_side[RELIEF] = 0.0;
         }
+        for j in 0..PARAMETERS {
+            information[(j, j)] *= 1.0 + 1e-6;
+            information[(j, j)] += 1e-9;
+        }
+        NormalEquations { information, right_side, cost }
     }
-    ground
-}
 
-/// Scoring step; relief that would become negative stays at nothing.
-fn damped_step(sums: &Sums, ground: &Ground) -> Option<Parameters> {
-    let mut information = sums.information;
-    let mut score = sums.score;
-    if ground.relief_variance <= 0.0 && score[RELIEF] <= 0.0 {
-        hold_relief(&mut information);
-        score[RELIEF] = 0.0;
+    fn cost(&self, ground: &Ground) -> f64 {
+        let homography = ground.homography();
+        let of = |s: &Sight| ground.misfit(&homography, s).map_or(1e9, |(d2, ln_det)| d2 + ln_det);
+        self.iter().map(of).sum()
     }
-    for j in 0..PARAMETERS {
-        information[(j, j)] *= 1.0 + 1e-6;
-        information[(j, j)] += 1e-9;
-    }
-    information.cholesky().map(|c| c.solve(&score))
-}
 
-fn sums(ground: &Ground, sights: &[Sight], inliers: &[bool]) -> Sums {
-    let axes = Axes::of(ground);
-    let mut sums = Sums { cost: 0.0, score: Parameters::zeros(), information: Information::zeros() };
-    for (sight, _) in sights.iter().zip(inliers).filter(|(_, inlier)| **inlier) {
-        let Some(evidence) = ground.evidence(&axes, sight) else { continue };
-        sums.cost += evidence.cost;
-        sums.score += evidence.score();
-        sums.information += evidence.information();
+    fn moved(&self, ground: &Ground, step: &Parameters) -> Option<Ground> {
+        Some(ground.moved(step))
     }
-    sums
-}
-
-fn cost(ground: &Ground, sights: &[Sight], inliers: &[bool]) -> f64 {
-    let homography = ground.homography();
-    let of = |s: &Sight| ground.misfit(&homography, s).map_or(1e9, |(d2, ln_det)| d2 + ln_det);
-    sights.iter().zip(inliers).filter(|(_, inlier)| **inlier).map(|(s, _)| of(s)).sum()
 }

@@ -2,13 +2,12 @@
 
 use super::model::Ground;
 use crate::geometry::so3::hat;
+use crate::stats::{NORMAL_MEDIAN, upper_median};
 use crate::vision::pair::models::General;
 use crate::vision::pair::normalized_match::Sight;
 use crate::vision::pair::residual::{Relation, residual};
 use nalgebra::{Matrix3, Unit, Vector2, Vector3};
 
-/// Median of |r| over σ for one residual.
-const NORMAL_MEDIAN: f64 = 0.6745;
 /// Least noise over the nominal one.
 const LEAST_NOISE: f64 = 0.03;
 /// Fewest matches that give a median.
@@ -40,7 +39,7 @@ pub fn plane_of_motion(motion: &General, sights: &[Sight], widest: f64) -> Optio
         }
         plane = information.cholesky()?.solve(&sum);
         let mut off: Vec<f64> = seen.iter().map(|(x, _, d)| (d - plane.dot(x)).abs()).collect();
-        gate = 3.0 * median(&mut off)? / NORMAL_MEDIAN;
+        gate = 3.0 * upper_median(&mut off)? / NORMAL_MEDIAN;
     }
     let normal = Unit::try_new(plane, 1e-12)?;
     let translation = motion.direction.into_inner() * plane.norm();
@@ -76,7 +75,7 @@ pub(super) fn with_variances(start: &Ground, sights: &[Sight], widest: f64) -> G
     let mut near: Vec<Off> = sights.iter().filter_map(|s| Off::of(start, &homography, s)).collect();
     near.retain(|o| o.across_sigma < widest);
     let most = widest / 3.0;
-    let middle = |value: fn(&Off) -> f64, from: &[Off]| median(&mut from.iter().map(value).collect::<Vec<f64>>());
+    let middle = |value: fn(&Off) -> f64, from: &[Off]| upper_median(&mut from.iter().map(value).collect::<Vec<f64>>());
     let noise = match middle(|o| o.across_sigma, &near) {
         Some(off) if near.len() >= FEWEST => (off / NORMAL_MEDIAN).clamp(LEAST_NOISE, most),
         _ => most,
@@ -86,9 +85,4 @@ pub(super) fn with_variances(start: &Ground, sights: &[Sight], widest: f64) -> G
     let spread = middle(|o| o.relief, &near).unwrap_or(1.0) / NORMAL_MEDIAN;
     let relief_variance = (spread.powi(2) - by_noise).max(0.01 * by_noise);
     Ground { relief_variance, noise_variance: noise.powi(2), ..*start }
-}
-
-fn median(values: &mut [f64]) -> Option<f64> {
-    let middle = values.len() / 2;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
