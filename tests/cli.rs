@@ -7,6 +7,7 @@ mod long_folder;
 mod masks;
 mod montecarlo;
 mod outcomes;
+mod settings;
 
 use assert_cmd::Command;
 use image::{GrayImage, Luma};
@@ -82,6 +83,7 @@ fn every_subcommand_explains_itself() {
         "land",
         "map",
         "tumble",
+        "montecarlo",
         "evaluate",
         "report",
         "bench",
@@ -95,9 +97,14 @@ fn every_subcommand_explains_itself() {
 
 #[test]
 fn reference_prints_every_key() {
-    let committed = Path::new(env!("CARGO_MANIFEST_DIR")).join("datasets/REFERENCE.md");
-    let text = std::fs::read_to_string(committed).expect("the reference");
-    opnav().arg("reference").assert().success().stdout(text);
+    let committed = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("datasets").join(name);
+        std::fs::read_to_string(path).expect("the reference")
+    };
+    let (scenario, settings) = (committed("REFERENCE.md"), committed("SETTINGS.md"));
+    opnav().arg("reference").assert().success().stdout(format!("{scenario}\n{settings}"));
+    opnav().args(["reference", "scenario"]).assert().success().stdout(scenario);
+    opnav().args(["reference", "settings"]).assert().success().stdout(settings);
 }
 
 #[test]

@@ -17,6 +17,8 @@ mod pipeline;
 mod render;
 mod report;
 mod scene;
+#[cfg(all(feature = "render", feature = "vision"))]
+mod settings;
 mod stats;
 #[cfg(feature = "vision")]
 mod vision;

@@ -2,6 +2,7 @@
 
 use super::arguments::frame_range;
 use super::progress::Terminal;
+use super::settings_arguments::SettingsArguments;
 use opnav::pipeline::{BenchRenderRequest, PipelineError, RenderTimes, bench_render};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -26,9 +27,8 @@ struct RenderArguments {
     /// Frames to time, counted from 0, without B.
     #[arg(long, value_name = "A..B", value_parser = frame_range)]
     frames: Option<Range<usize>>,
-    /// Change a key of the scenario, such as render.supersampling=1; may be repeated.
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    overrides: Vec<String>,
+    #[command(flatten)]
+    settings: SettingsArguments,
     /// Part of the name of the graphics adapter to use.
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
@@ -42,7 +42,7 @@ pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineErr
     let Story::Render(arguments) = &arguments.story;
     let request = BenchRenderRequest {
         scenario: arguments.scenario.clone(),
-        overrides: arguments.overrides.clone(),
+        layers: arguments.settings.layers([]),
         frames: arguments.frames.clone(),
         adapter: arguments.adapter.clone(),
     };

@@ -1,9 +1,10 @@
 //! `opnav land`: navigate a descent.
 
-use super::arguments::FrontEndArguments;
-use super::landing_options::{LandingOptions, selector_parser};
+use super::arguments::{FrontEndArguments, put, word};
+use super::landing_options::LandingOptions;
 use super::progress::Terminal;
-use opnav::pipeline::{FrontEndConfig, LandRequest, LandingConfig, PipelineError, Selector, land};
+use super::settings_arguments::SettingsArguments;
+use opnav::pipeline::{LandRequest, LandSettings, PipelineError, Selector, land};
 use std::path::PathBuf;
 
 /// Navigate a descent by its pictures and its IMU.
@@ -17,40 +18,47 @@ pub struct Arguments {
     /// Folder of a map, as `opnav map` makes it: known points in every picture, which make yaw observable.
     #[arg(long, value_name = "DIR")]
     map: Option<PathBuf>,
-    /// How the unknown landmark is chosen.
-    #[arg(long, value_parser = selector_parser(), default_value = "depth-error")]
-    selector: Selector,
-    /// How many unknown landmarks are followed at a time.
-    #[arg(long, value_name = "N", default_value = "3")]
-    landmarks: usize,
-    /// Observations after which an unknown landmark may be replaced.
-    #[arg(long, value_name = "N", default_value = "8")]
-    reselect_after: usize,
+    /// How the unknown landmark is chosen [default: depth-error].
+    #[arg(long, value_parser = word::<Selector>())]
+    selector: Option<Selector>,
+    /// How many unknown landmarks are followed at a time [default: 3].
+    #[arg(long, value_name = "N")]
+    landmarks: Option<usize>,
+    /// Observations after which an unknown landmark may be replaced [default: 8].
+    #[arg(long, value_name = "N")]
+    reselect_after: Option<usize>,
     #[command(flatten)]
     filter: LandingOptions,
     #[command(flatten)]
     front_end: FrontEndArguments,
-    /// Seed of the random selector.
-    #[arg(long, default_value = "0")]
-    seed: u64,
+    /// Seed of the random selector [default: 0].
+    #[arg(long)]
+    seed: Option<u64>,
+    #[command(flatten)]
+    settings: SettingsArguments,
+}
+
+impl Arguments {
+    fn settings(&self) -> Result<LandSettings, PipelineError> {
+        let mut settings: LandSettings = self.settings.resolve()?;
+        if self.map.is_some() {
+            settings.input.map.clone_from(&self.map);
+        }
+        let landing = &mut settings.landing;
+        self.filter.apply(landing);
+        put(&mut landing.selector, self.selector);
+        put(&mut landing.unknown_landmarks, self.landmarks);
+        put(&mut landing.reselect_after, self.reselect_after);
+        put(&mut landing.seed, self.seed);
+        self.front_end.apply(&mut settings.front_end);
+        Ok(settings)
+    }
 }
 
 /// Navigates and prints the final state.
 pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineError> {
-    let config = LandingConfig {
-        selector: arguments.selector,
-        unknown_landmarks: arguments.landmarks,
-        reselect_after: arguments.reselect_after,
-        seed: arguments.seed,
-        ..arguments.filter.applied_to(LandingConfig::from_pixels())
-    };
-    let request = LandRequest {
-        folder: arguments.folder.clone(),
-        out: arguments.out.clone(),
-        map: arguments.map.clone(),
-        config,
-        front_end: arguments.front_end.applied_to(FrontEndConfig::default()),
-    };
+    let request =
+        LandRequest { folder: arguments.folder.clone(), out: arguments.out.clone(), settings: arguments.settings()? };
     let summary = land(&request, terminal)?;
     summary.notes.iter().for_each(|note| terminal.say(note));
     terminal.say(&format!("final state: {}", summary.last));

@@ -1,6 +1,7 @@
 //! `opnav map`: a scenario to a map of its landing area.
 
 use super::progress::Terminal;
+use super::settings_arguments::SettingsArguments;
 use opnav::pipeline::{MapRequest, PipelineError, SurveyLevel, make_map};
 use std::path::PathBuf;
 
@@ -12,11 +13,10 @@ pub struct Arguments {
     /// Folder of the map.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Change a key of the scenario, such as descent.sun.elevation_deg=30; may be repeated.
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    overrides: Vec<String>,
-    /// A square about the site, as metres a pixel and metres a side; may be repeated, from fine to coarse [default: 0.5,1000
-    /// 2,4000 8,20000].
+    #[command(flatten)]
+    settings: SettingsArguments,
+    /// A square about the site, as metres a pixel and metres a side; may be repeated, from fine to coarse [default: those
+    /// of the scenario, or else 0.5,1000 2,4000 8,20000].
     #[arg(long = "level", value_name = "M_PX,SIDE_M", value_parser = level)]
     levels: Vec<SurveyLevel>,
     /// Part of the name of the graphics adapter to use.
@@ -36,8 +36,8 @@ pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineErr
     let request = MapRequest {
         scenario: arguments.scenario.clone(),
         out: arguments.out.clone(),
-        overrides: arguments.overrides.clone(),
-        levels: if arguments.levels.is_empty() { MapRequest::LEVELS.to_vec() } else { arguments.levels.clone() },
+        layers: arguments.settings.layers([]),
+        levels: arguments.levels.clone(),
         adapter: arguments.adapter.clone(),
     };
     let map = make_map(&request, terminal)?;

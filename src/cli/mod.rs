@@ -15,6 +15,7 @@ mod reference;
 mod render;
 mod report;
 mod run;
+mod settings_arguments;
 mod track;
 mod tumble;
 

@@ -1,10 +1,13 @@
 //! `opnav montecarlo`: campaigns of simulated missions.
 
-use super::landing_options::{LandingOptions, selector_parser};
+use super::arguments::{put, word};
+use super::landing_options::LandingOptions;
 use super::progress::Terminal;
+use super::settings_arguments::SettingsArguments;
 use clap::{Subcommand, ValueEnum};
-use opnav::pipeline::{CampaignOptions, FieldOfView};
-use opnav::pipeline::{MonteCarloRequest, PipelineError, Selector, montecarlo_landing};
+use opnav::pipeline::{
+    CampaignOptions, FieldOfView, MonteCarloRequest, MonteCarloSettings, PipelineError, Selector, montecarlo_landing,
+};
 use std::path::PathBuf;
 
 /// Fly a mission many times with simulated measurements, and compare errors, envelopes and bounds.
@@ -22,45 +25,42 @@ enum Mission {
 /// Land many times by simulated bearings: table.csv, epochs.csv, flights.csv, summary.json and report.html.
 #[derive(Debug, clap::Args)]
 struct Landing {
-    /// Flights of each selector.
-    #[arg(long, value_name = "N", default_value = "300")]
-    runs: u64,
-    /// Seed; flight k of a seed is the same whatever else is flown.
-    #[arg(long, default_value = "1")]
-    seed: u64,
+    /// Flights of each selector [default: 300].
+    #[arg(long, value_name = "N")]
+    runs: Option<u64>,
+    /// Seed; flight k of a seed is the same whatever else is flown [default: 1].
+    #[arg(long)]
+    seed: Option<u64>,
     /// Folder of the result.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// How unknown landmarks are chosen; several are flown one after the other.
-    #[arg(long, value_parser = selector_parser(), value_delimiter = ',', default_value = "depth-error")]
+    /// How unknown landmarks are chosen; several are flown one after the other [default: depth-error].
+    #[arg(long, value_parser = word::<Selector>(), value_delimiter = ',')]
     selector: Vec<Selector>,
-    /// How many unknown landmarks are followed at a time.
-    #[arg(long, value_name = "N", default_value = "1")]
-    landmarks: usize,
-    /// 1σ of a bearing in mrad.
-    #[arg(long, value_name = "MRAD", default_value = "1")]
-    sigma_bearing: f64,
-    /// What the lander sees: every direction, a 90° camera, or a 60° camera turned 20° towards the site.
-    #[arg(long, value_enum, default_value = "everywhere")]
-    field_of_view: FieldOfViewName,
-    /// The path: of fourth degree, or of fifth through the paper's initial attitude.
-    #[arg(long, value_enum, default_value = "quartic")]
-    path: PathName,
-    /// Share of bearings that are wrong, 0 to 0.5.
-    #[arg(long, value_name = "SHARE", default_value = "0")]
-    outliers: f64,
-    /// Height of smooth relief in m; 0 draws each landmark's height by itself.
-    #[arg(long, value_name = "M", default_value = "0")]
-    relief: f64,
+    /// How many unknown landmarks are followed at a time [default: 1].
+    #[arg(long, value_name = "N")]
+    landmarks: Option<usize>,
+    /// 1σ of a bearing in mrad [default: 1].
+    #[arg(long, value_name = "MRAD")]
+    sigma_bearing: Option<f64>,
+    /// What the lander sees: every direction, a 90° camera, or a 60° camera turned 20° towards the site [default:
+    /// everywhere].
+    #[arg(long, value_parser = word::<FieldOfView>())]
+    field_of_view: Option<FieldOfView>,
+    /// The path: of fourth degree, or of fifth through the paper's initial attitude [default: quartic].
+    #[arg(long, value_enum)]
+    path: Option<PathName>,
+    /// Share of bearings that are wrong, 0 to 0.5; with some, the filter's gate is set to 1 - 1e-5 unless settings say
+    /// otherwise [default: 0].
+    #[arg(long, value_name = "SHARE")]
+    outliers: Option<f64>,
+    /// Height of smooth relief in m; 0 draws each landmark's height by itself [default: 0].
+    #[arg(long, value_name = "M")]
+    relief: Option<f64>,
     #[command(flatten)]
     filter: LandingOptions,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum FieldOfViewName {
-    Everywhere,
-    Wide,
-    Canted,
+    #[command(flatten)]
+    settings: SettingsArguments,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -70,40 +70,43 @@ enum PathName {
 }
 
 impl Landing {
-    fn options(&self) -> CampaignOptions {
-        let mut options = CampaignOptions {
-            runs: self.runs,
-            seed: self.seed,
-            sigma_bearing_rad: self.sigma_bearing * 1e-3,
-            outlier_share: self.outliers,
-            relief_m: self.relief,
-            field_of_view: match self.field_of_view {
-                FieldOfViewName::Everywhere => FieldOfView::Everywhere,
-                FieldOfViewName::Wide => FieldOfView::Wide,
-                FieldOfViewName::Canted => FieldOfView::Canted,
-            },
-            ..CampaignOptions::default()
-        };
-        if matches!(self.path, PathName::Quintic) {
-            options.guidance = CampaignOptions::papers_attitude();
+    fn settings(&self) -> Result<MonteCarloSettings, PipelineError> {
+        let mut settings: MonteCarloSettings = self.settings.resolve()?;
+        if !self.selector.is_empty() {
+            settings.selectors.clone_from(&self.selector);
         }
-        options.filter = self.filter.applied_to(options.filter);
-        options.filter.unknown_landmarks = self.landmarks;
+        self.apply(&mut settings.campaign);
+        Ok(settings)
+    }
+
+    fn apply(&self, options: &mut CampaignOptions) {
+        put(&mut options.runs, self.runs);
+        put(&mut options.seed, self.seed);
+        put(&mut options.sigma_bearing_rad, self.sigma_bearing.map(|sigma_mrad| sigma_mrad * 1e-3));
+        put(&mut options.outlier_share, self.outliers);
+        put(&mut options.relief_m, self.relief);
+        put(&mut options.field_of_view, self.field_of_view);
+        put(&mut options.filter.unknown_landmarks, self.landmarks);
+        self.filter.apply(&mut options.filter);
+        match self.path {
+            Some(PathName::Quartic) => options.guidance.profile = CampaignOptions::default().guidance.profile,
+            Some(PathName::Quintic) => options.guidance.profile = CampaignOptions::papers_attitude().profile,
+            None => {}
+        }
         // The true planet is the one that the filter is told of.
-        options.planet_rate_in_site_rad_s = options.filter.planet_rate_in_site_rad_s;
-        options.guidance.gravity_m_s2 = options.filter.gravity_m_s2;
-        if self.outliers > 0.0 {
+        put(&mut options.guidance.gravity_m_s2, self.filter.gravity);
+        put(&mut options.planet_rate_in_site_rad_s, self.filter.planet_rate_rad_s);
+        let gate_confidence = CampaignOptions::default().filter.gate_confidence;
+        if self.outliers.is_some_and(|share| share > 0.0) && options.filter.gate_confidence == gate_confidence {
             options.filter.gate_confidence = 1.0 - 1e-5;
         }
-        options
     }
 }
 
 /// Flies the campaigns and prints their table.
 pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineError> {
     let Mission::Landing(landing) = &arguments.mission;
-    let request =
-        MonteCarloRequest { out: landing.out.clone(), options: landing.options(), selectors: landing.selector.clone() };
+    let request = MonteCarloRequest { out: landing.out.clone(), settings: landing.settings()? };
     let outcome = montecarlo_landing(&request, terminal)?;
     terminal.say(&format!(
         "{:<20} {:>10} {:>12} {:>8} {:>10} {:>12} {:>8} {:>8} {:>7}",

@@ -2,6 +2,7 @@
 
 use super::arguments::frame_range;
 use super::progress::Terminal;
+use super::settings_arguments::SettingsArguments;
 use opnav::pipeline::{PipelineError, SynthesizeRequest, Synthesized, synthesize};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -24,9 +25,8 @@ pub struct Arguments {
     /// Continue an interrupted data set.
     #[arg(long)]
     resume: bool,
-    /// Change a key of the scenario, such as camera.width_px=512; may be repeated.
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    overrides: Vec<String>,
+    #[command(flatten)]
+    settings: SettingsArguments,
     /// Part of the name of the graphics adapter to use.
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
@@ -34,12 +34,10 @@ pub struct Arguments {
 
 /// Renders and says where.
 pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineError> {
-    let mut overrides = arguments.overrides.clone();
-    overrides.extend(arguments.seed.map(|seed| format!("seed={seed}")));
     let request = SynthesizeRequest {
         scenario: arguments.scenario.clone(),
         out: arguments.out.clone(),
-        overrides,
+        layers: arguments.settings.layers(arguments.seed.map(|seed| format!("seed={seed}"))),
         frames: arguments.frames.clone(),
         resume: arguments.resume,
         adapter: arguments.adapter.clone(),

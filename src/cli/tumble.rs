@@ -1,10 +1,9 @@
 //! `opnav tumble`: the motion of a tumbling body.
 
-use super::arguments::{CameraArguments, FrontEndArguments, frame_range};
+use super::arguments::{FrontEndArguments, InputArguments, put, word};
 use super::progress::Terminal;
-use clap::ValueEnum;
-use opnav::pipeline::{Estimator, FrontEndConfig, FrontEndMode, PipelineError, TumbleRequest, TumblingConfig, tumble};
-use std::ops::Range;
+use super::settings_arguments::SettingsArguments;
+use opnav::pipeline::{Estimator, PipelineError, TumbleRequest, TumbleSettings, tumble};
 use std::path::PathBuf;
 
 /// Estimate attitude, rate and inertia ratios of a tumbling small body.
@@ -16,49 +15,23 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     #[command(flatten)]
-    camera: CameraArguments,
-    /// Pictures to take, counted from 0, without B.
-    #[arg(long, value_name = "A..B", value_parser = frame_range)]
-    frames: Option<Range<usize>>,
-    /// The estimator.
-    #[arg(long, value_enum, default_value = "shooting")]
-    estimator: EstimatorName,
+    input: InputArguments,
+    /// The estimator [default: shooting].
+    #[arg(long, value_parser = word::<Estimator>())]
+    estimator: Option<Estimator>,
     #[command(flatten)]
     front_end: FrontEndArguments,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum EstimatorName {
-    /// The paper's extended Kalman filter, the baseline.
-    Paper,
-    /// A fit of the first minute, then a cloned Kalman filter.
-    Realtime,
-    /// Fit of the rotational dynamics to all pairs.
-    Shooting,
-}
-
-impl From<EstimatorName> for Estimator {
-    fn from(name: EstimatorName) -> Self {
-        match name {
-            EstimatorName::Paper => Estimator::Paper,
-            EstimatorName::Realtime => Estimator::Realtime,
-            EstimatorName::Shooting => Estimator::Shooting,
-        }
-    }
+    #[command(flatten)]
+    settings: SettingsArguments,
 }
 
 /// Estimates and prints the final state.
 pub fn run(arguments: &Arguments, terminal: &Terminal) -> Result<(), PipelineError> {
-    let request = TumbleRequest {
-        folder: arguments.folder.clone(),
-        out: arguments.out.clone(),
-        camera: arguments.camera.source(),
-        frames: arguments.frames.clone(),
-        config: TumblingConfig { estimator: arguments.estimator.into(), ..TumblingConfig::default() },
-        front_end: arguments
-            .front_end
-            .applied_to(FrontEndConfig { mode: FrontEndMode::FixedCenter, ..FrontEndConfig::default() }),
-    };
+    let mut settings: TumbleSettings = arguments.settings.resolve()?;
+    arguments.input.apply(&mut settings.input);
+    put(&mut settings.tumbling.estimator, arguments.estimator);
+    arguments.front_end.apply(&mut settings.front_end);
+    let request = TumbleRequest { folder: arguments.folder.clone(), out: arguments.out.clone(), settings };
     let summary = tumble(&request, terminal)?;
     summary.notes.iter().for_each(|note| terminal.say(note));
     terminal.say(&format!("final state: {}", summary.last));

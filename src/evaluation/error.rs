@@ -1,6 +1,7 @@
 //! Why an evaluation could not be made.
 
 use crate::dataset::DatasetError;
+use crate::settings::OutOfRange;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -39,13 +40,8 @@ pub enum EvaluationError {
         truth: PathBuf,
     },
     /// An option of a campaign is out of range.
-    #[error("campaign option {option} {problem}")]
-    Campaign {
-        /// The option.
-        option: &'static str,
-        /// What is wrong with it.
-        problem: String,
-    },
+    #[error("campaign option {0}")]
+    OutOfRange(#[from] OutOfRange),
 }
 
 impl EvaluationError {

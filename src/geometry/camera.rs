@@ -1,6 +1,7 @@
 //! A central camera: focal lengths, principal point, distortion.
 
 use super::distortion::Distortion;
+use crate::settings::{OutOfRange, limits};
 use nalgebra::{Matrix2x3, Unit, Vector2, Vector3};
 use thiserror::Error;
 
@@ -8,15 +9,8 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CameraError {
     /// A parameter outside its range.
-    #[error("camera parameter {name} is {value}: {cure}")]
-    OutOfRange {
-        /// Parameter's name as in the file.
-        name: &'static str,
-        /// The value found.
-        value: f64,
-        /// What to do.
-        cure: &'static str,
-    },
+    #[error("camera parameter {0}")]
+    OutOfRange(#[from] OutOfRange),
     /// The distortion cannot be inverted at a corner of the picture.
     #[error("the distortion cannot be inverted at pixel ({u_px}, {v_px}): check the coefficients or crop the picture")]
     NotInvertible {
@@ -60,22 +54,12 @@ impl Camera {
     /// # Errors
     /// [`CameraError`] names the parameter or the corner.
     pub fn validate(&self) -> Result<(), CameraError> {
-        let positive = [
-            ("width", f64::from(self.width_px)),
-            ("height", f64::from(self.height_px)),
-            ("fu", self.focal_px.x),
-            ("fv", self.focal_px.y),
-        ];
-        for (name, value) in positive {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(CameraError::OutOfRange { name, value, cure: "it must be a positive number" });
-            }
-        }
-        for (name, value) in [("cu", self.center_px.x), ("cv", self.center_px.y)] {
-            if !value.is_finite() {
-                return Err(CameraError::OutOfRange { name, value, cure: "it must be a finite number" });
-            }
-        }
+        limits::count_from("width", self.width_px as usize, 1)?;
+        limits::count_from("height", self.height_px as usize, 1)?;
+        limits::positive("fu", self.focal_px.x)?;
+        limits::positive("fv", self.focal_px.y)?;
+        limits::finite("cu", &[self.center_px.x])?;
+        limits::finite("cv", &[self.center_px.y])?;
         for corner in self.corners_px() {
             if self.unproject(&corner).is_none_or(|bearing| !bearing.iter().all(|c| c.is_finite())) {
                 return Err(CameraError::NotInvertible { u_px: corner.x, v_px: corner.y });

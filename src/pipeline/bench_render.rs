@@ -5,6 +5,7 @@ use super::progress::Progress;
 use super::track::checked_frames;
 use crate::render::{Gpu, Renderer, StageTime};
 use crate::scene::Scenario;
+use crate::settings::Layers;
 use crate::stats::upper_median;
 use serde::Serialize;
 use std::ops::Range;
@@ -16,8 +17,8 @@ use std::time::Instant;
 pub struct BenchRenderRequest {
     /// The scenario file.
     pub scenario: PathBuf,
-    /// `key=value` changes to the scenario, dotted keys.
-    pub overrides: Vec<String>,
+    /// What is laid over the scenario.
+    pub layers: Layers,
     /// Frames of the first camera to time; all if `None`.
     pub frames: Option<Range<usize>>,
     /// Part of the name of the graphics adapter to use.
@@ -45,7 +46,7 @@ pub struct RenderTimes {
 /// A bad scenario, no adapter, or a view that cannot be a picture.
 pub fn bench_render(request: &BenchRenderRequest, progress: &dyn Progress) -> Result<RenderTimes, PipelineError> {
     let start = Instant::now();
-    let scenario = Scenario::read(&request.scenario, &request.overrides)?;
+    let scenario = Scenario::read_under(&request.scenario, &request.layers)?;
     let scene = scenario.build(request.scenario.parent().unwrap_or(Path::new(".")))?;
     let camera = &scene.cameras()[0];
     let views = &camera.views[checked_frames(request.frames.clone(), camera.views.len())?];

@@ -5,17 +5,18 @@ use super::evaluate::evaluate_result;
 use super::land::{LandRequest, land};
 use super::page::write_page;
 use super::progress::Progress;
+use super::settings::{DemoSettings, TumbleSettings, record};
 use super::synthesize::{SynthesizeRequest, synthesize};
 use super::track::{TrackRequest, track};
 use super::tumble::{TumbleRequest, tumble};
-use crate::dataset::{CameraSource, FrameTimes, write_text};
+use crate::dataset::write_text;
 use crate::evaluation::Metrics;
-use crate::navigation::landing::LandingConfig;
-use crate::navigation::tumbling::{Estimator, TumblingConfig};
+use crate::navigation::tumbling::Estimator;
 use crate::report::figure_lines;
-use crate::vision::{FrontEndConfig, FrontEndMode};
+use crate::settings::{Layers, Settings};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use toml::Table;
 
 /// What the demonstration made.
 #[derive(Debug, Clone)]
@@ -32,41 +33,47 @@ const TUMBLING: &str = include_str!("../../datasets/tumbling_small.toml");
 /// Runs the demonstration in `out`; frames that an earlier, interrupted run finished are kept.
 ///
 /// # Errors
-/// Whatever stops one of the stories.
-pub fn demonstrate(out: &Path, progress: &dyn Progress) -> Result<DemoOutcome, PipelineError> {
+/// A setting out of range, or whatever stops one of the stories.
+pub fn demonstrate(out: &Path, settings: &DemoSettings, progress: &dyn Progress) -> Result<DemoOutcome, PipelineError> {
+    settings.validate()?;
     let start = Instant::now();
     let mut lines = Vec::new();
     progress.note("A descent to Mars: rendering 60 frames with truth, then navigating by them");
-    let descent = make_images(out, "descent", DESCENT, progress)?;
-    let landing = demonstrate_landing(out, &descent, progress)?;
-    let tracking = demonstrate_tracking(out, &descent, progress)?;
+    let descent = make_images(out, "descent", (DESCENT, &settings.descent), progress)?;
+    let landing = demonstrate_landing(out, &descent, settings, progress)?;
+    let tracking = demonstrate_tracking(out, &descent, settings, progress)?;
     progress.note("A tumbling asteroid: rendering 60 frames with truth, then estimating its motion");
-    let asteroid = make_images(out, "asteroid", TUMBLING, progress)?;
-    let shooting = demonstrate_tumbling(out, &asteroid, (Estimator::Shooting, "tumbling"), progress)?;
-    let paper = demonstrate_tumbling(out, &asteroid, (Estimator::Paper, "tumbling-paper"), progress)?;
-    for (title, metrics) in [
-        ("Landing", &landing.1),
-        ("Tracking", &tracking.1),
-        ("Tumbling", &shooting.1),
-        ("Tumbling, paper's EKF", &paper.1),
-    ] {
+    let asteroid = make_images(out, "asteroid", (TUMBLING, &settings.asteroid), progress)?;
+    let best = demonstrate_tumbling(&out.join("tumbling"), &asteroid, settings.tumble.clone(), progress)?;
+    let mut by_paper = settings.tumble.clone();
+    by_paper.tumbling.estimator = Estimator::Paper;
+    let paper = demonstrate_tumbling(&out.join("tumbling-paper"), &asteroid, by_paper, progress)?;
+    for (title, metrics) in
+        [("Landing", &landing.1), ("Tracking", &tracking.1), ("Tumbling", &best.1), ("Tumbling, paper's EKF", &paper.1)]
+    {
         lines.push(format!("\n{title}"));
         lines.extend(figure_lines(metrics));
     }
+    record(out, "demo", settings)?;
     let page = out.join("report.html");
-    write_page(&[landing.0, tracking.0, shooting.0, paper.0], &page)?;
+    write_page(&[landing.0, tracking.0, best.0, paper.0], &page)?;
     lines.push(format!("\nDone in {:.0} s", start.elapsed().as_secs_f64()));
     Ok(DemoOutcome { page, lines })
 }
 
-fn make_images(out: &Path, name: &str, scenario: &str, progress: &dyn Progress) -> Result<PathBuf, PipelineError> {
+fn make_images(
+    out: &Path,
+    name: &str,
+    (scenario, over): (&str, &Table),
+    progress: &dyn Progress,
+) -> Result<PathBuf, PipelineError> {
     let file = out.join(format!("{name}.toml"));
     write_text(&file, scenario)?;
     let folder = out.join(name);
     let request = SynthesizeRequest {
         scenario: file,
         out: folder.clone(),
-        overrides: Vec::new(),
+        layers: Layers::from(over),
         frames: None,
         resume: true,
         adapter: None,
@@ -77,30 +84,25 @@ fn make_images(out: &Path, name: &str, scenario: &str, progress: &dyn Progress) 
 
 type Evaluated = (PathBuf, Metrics);
 
-fn demonstrate_landing(out: &Path, images: &Path, progress: &dyn Progress) -> Result<Evaluated, PipelineError> {
-    let request = LandRequest {
-        map: None,
-        folder: images.into(),
-        out: out.join("landing"),
-        config: LandingConfig::from_pixels(),
-        front_end: FrontEndConfig::default(),
-    };
+fn demonstrate_landing(
+    out: &Path,
+    images: &Path,
+    settings: &DemoSettings,
+    progress: &dyn Progress,
+) -> Result<Evaluated, PipelineError> {
+    let request = LandRequest { folder: images.into(), out: out.join("landing"), settings: settings.land.clone() };
     land(&request, progress)?;
     let metrics = evaluate_result(&request.out, images)?;
     Ok((request.out, metrics))
 }
 
-fn demonstrate_tracking(out: &Path, images: &Path, progress: &dyn Progress) -> Result<Evaluated, PipelineError> {
-    let request = TrackRequest {
-        folder: images.into(),
-        out: out.join("tracking"),
-        camera: CameraSource::Folder,
-        times: FrameTimes::Folder,
-        every: 1,
-        frames: None,
-        mask: None,
-        config: FrontEndConfig::default(),
-    };
+fn demonstrate_tracking(
+    out: &Path,
+    images: &Path,
+    settings: &DemoSettings,
+    progress: &dyn Progress,
+) -> Result<Evaluated, PipelineError> {
+    let request = TrackRequest { folder: images.into(), out: out.join("tracking"), settings: settings.track.clone() };
     track(&request, progress)?;
     let metrics = evaluate_result(&request.out, images)?;
     Ok((request.out, metrics))
@@ -109,17 +111,10 @@ fn demonstrate_tracking(out: &Path, images: &Path, progress: &dyn Progress) -> R
 fn demonstrate_tumbling(
     out: &Path,
     images: &Path,
-    (estimator, name): (Estimator, &str),
+    settings: TumbleSettings,
     progress: &dyn Progress,
 ) -> Result<Evaluated, PipelineError> {
-    let request = TumbleRequest {
-        folder: images.into(),
-        out: out.join(name),
-        camera: CameraSource::Folder,
-        frames: None,
-        config: TumblingConfig { estimator, ..TumblingConfig::default() },
-        front_end: FrontEndConfig { mode: FrontEndMode::FixedCenter, ..FrontEndConfig::default() },
-    };
+    let request = TumbleRequest { folder: images.into(), out: out.into(), settings };
     tumble(&request, progress)?;
     let metrics = evaluate_result(&request.out, images)?;
     Ok((request.out, metrics))

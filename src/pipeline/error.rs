@@ -7,6 +7,7 @@ use crate::navigation::tumbling::TumblingError;
 use crate::render::RenderError;
 use crate::report::ReportError;
 use crate::scene::SceneError;
+use crate::settings::{OutOfRange, SettingsError};
 use crate::vision::VisionError;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -14,6 +15,12 @@ use thiserror::Error;
 /// Why a story could not be told to its end. Every message names the file or key and the cure.
 #[derive(Debug, Error)]
 pub enum PipelineError {
+    /// Settings that cannot be read.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// A setting outside its range.
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// Files.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
@@ -70,9 +77,6 @@ pub enum PipelineError {
         /// The scenario file.
         path: PathBuf,
     },
-    /// Levels of a map in a wrong order.
-    #[error("the levels of a map go from fine to coarse, and there is at least one: order them by metres a pixel")]
-    LevelOrder,
     /// A range of frames that does not fit.
     #[error("frames {from}..{to} do not lie within the {available} frames there are")]
     FrameRange {

@@ -14,11 +14,13 @@ mod montecarlo;
 mod page;
 mod progress;
 mod reference;
+mod settings;
 mod summary;
 mod synthesize;
 mod track;
 mod tumble;
 
+pub use crate::campaign::{CampaignOptions, FieldOfView};
 pub use crate::dataset::{CameraSource, FrameTimes};
 pub use crate::navigation::landing::{BiasPrior, FilterKind, ImageRotationUse, LandingConfig, LandmarkStart};
 pub use crate::navigation::landmark::Selector;
@@ -37,7 +39,11 @@ pub use map::{MapRequest, make_map};
 pub use montecarlo::{MonteCarloOutcome, MonteCarloRequest, montecarlo_landing};
 pub use page::write_page;
 pub use progress::{Progress, Silent};
-pub use reference::scenario_reference;
+pub use reference::{scenario_reference, settings_reference};
+pub use settings::{
+    DemoSettings, InputSettings, LandInput, LandSettings, MonteCarloSettings, TrackSettings, TumbleSettings,
+    command_settings,
+};
 pub use summary::{Summary, UnusedFrame};
 pub use synthesize::{SynthesizeRequest, Synthesized, synthesize};
 pub use track::{TrackRequest, track};

@@ -2,11 +2,12 @@
 
 use super::error::PipelineError;
 use super::progress::Progress;
+use super::settings::{MonteCarloSettings, record};
 use super::summary::Summary;
-use crate::campaign::{Campaign, CampaignOptions, run_campaign};
+use crate::campaign::{Campaign, run_campaign};
 use crate::dataset::{DatasetError, write_text};
-use crate::navigation::landmark::Selector;
 use crate::report::{Page, campaign_sections, write_report};
+use crate::settings::Settings;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -17,10 +18,8 @@ use std::time::Instant;
 pub struct MonteCarloRequest {
     /// The result's folder.
     pub out: PathBuf,
-    /// What every campaign has in common.
-    pub options: CampaignOptions,
-    /// One campaign each.
-    pub selectors: Vec<Selector>,
+    /// What is flown.
+    pub settings: MonteCarloSettings,
 }
 
 /// The campaigns of one request, in the order of its selectors.
@@ -40,11 +39,14 @@ pub fn montecarlo_landing(
     request: &MonteCarloRequest,
     progress: &(dyn Progress + Sync),
 ) -> Result<MonteCarloOutcome, PipelineError> {
-    let options = serde_json::to_value(&request.options).expect("options are plain data");
+    let MonteCarloSettings { selectors, campaign: shared } = &request.settings;
+    request.settings.validate()?;
+    let options = serde_json::to_value(shared).expect("options are plain data");
     let mut summary = Summary::new("landing-campaign", options);
     let mut campaigns = Vec::new();
-    for selector in &request.selectors {
-        let mut options = request.options.clone();
+    let selectors = if selectors.is_empty() { std::slice::from_ref(&shared.filter.selector) } else { selectors };
+    for selector in selectors {
+        let mut options = shared.clone();
         options.filter.selector = *selector;
         progress.begin(&format!("flying, {}", selector.word()), options.runs as usize);
         let (start, done) = (Instant::now(), AtomicUsize::new(0));
@@ -54,13 +56,14 @@ pub fn montecarlo_landing(
         summary.counts.insert(format!("converged_{}", selector.word()), campaign.converged());
         campaigns.push(campaign);
     }
-    summary.counts.insert("flights".into(), request.options.runs as usize);
+    summary.counts.insert("flights".into(), shared.runs as usize);
     let last = campaigns.iter().map(|c| (c.options.filter.selector.word(), c.final_errors()));
     summary.last = last.map(|(word, e)| (word, serde_json::to_value(e).expect("plain data"))).collect();
     write_text(&request.out.join("table.csv"), &final_table(&campaigns))?;
     write_text(&request.out.join("epochs.csv"), &epoch_table(&campaigns))?;
     write_text(&request.out.join("flights.csv"), &flight_table(&campaigns))?;
     write_page(&request.out, &campaigns)?;
+    record(&request.out, "montecarlo landing", &request.settings)?;
     summary.write(&request.out)?;
     Ok(MonteCarloOutcome { campaigns, summary })
 }

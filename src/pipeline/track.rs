@@ -4,12 +4,15 @@ use super::error::PipelineError;
 use super::front_end_files::{write_front_end, write_pictures};
 use super::mask::read_mask;
 use super::progress::Progress;
+use super::settings::{InputSettings, TrackSettings, record};
 use super::summary::{Summary, UnusedFrame};
-use crate::dataset::{CameraSource, FrameTimes, ImageSequence};
+use crate::dataset::ImageSequence;
 use crate::observations::FrameStatus;
+use crate::settings::Settings;
 use crate::vision::{FrameReport, FrontEnd, FrontEndConfig, TrackInputs, track_sequence};
+use image::GrayImage;
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// What to track, and where the result goes.
@@ -19,38 +22,30 @@ pub struct TrackRequest {
     pub folder: PathBuf,
     /// The result's folder.
     pub out: PathBuf,
-    /// Where the camera's parameters come from.
-    pub camera: CameraSource,
-    /// Where the time stamps come from.
-    pub times: FrameTimes,
-    /// Take every n-th picture.
-    pub every: usize,
-    /// Pictures to take; all if `None`.
-    pub frames: Option<Range<usize>>,
-    /// A picture of the camera's size that is 0 where not to look.
-    pub mask: Option<PathBuf>,
-    /// Front-end settings.
-    pub config: FrontEndConfig,
+    /// Which pictures are taken, and how.
+    pub settings: TrackSettings,
 }
 
 /// Tracks a sequence and writes tracks, rotations, the chains of attitudes, overlays and the summary. Pictures that cannot
 /// be used are named in the summary, and tracking goes on around them.
 ///
 /// # Errors
-/// Fewer than two pictures that can be read, no camera, a mask that does not fit, or a file that cannot be written.
+/// A setting out of range, fewer than two pictures that can be read, no camera, a mask that does not fit, or a file that
+/// cannot be written.
 pub fn track(request: &TrackRequest, progress: &dyn Progress) -> Result<Summary, PipelineError> {
-    let sequence = ImageSequence::open_timed(&request.folder, &request.camera, &request.times)?;
-    let frames = checked_frames(request.frames.clone(), sequence.frames.len())?;
-    let mask = request.mask.as_deref().map(|path| read_mask(path, sequence.sensor.camera.size_px())).transpose()?;
-    let inputs = TrackInputs { frames, every: request.every, mask: mask.as_ref(), ..TrackInputs::default() };
+    let TrackSettings { input, front_end: config } = &request.settings;
+    request.settings.validate()?;
+    let (sequence, mask) = open(&request.folder, input)?;
+    let frames = checked_frames(input.frame_range(), sequence.frames.len())?;
+    let inputs = TrackInputs { frames, every: input.every, mask: mask.as_ref(), ..TrackInputs::default() };
     let options = serde_json::json!({
         "folder": request.folder.display().to_string(),
-        "every": request.every,
-        "mask": request.mask.as_ref().map(|path| path.display().to_string()),
-        "front_end": request.config,
+        "every": input.every,
+        "mask": input.mask.as_ref().map(|path| path.display().to_string()),
+        "front_end": config,
     });
     let mut summary = Summary::new("tracking", options);
-    let front_end = run_front_end(&sequence, &request.config, &inputs, (progress, &mut summary))?;
+    let front_end = run_front_end(&sequence, config, &inputs, (progress, &mut summary))?;
     let start = Instant::now();
     let chains = write_front_end(&request.out, &front_end)?;
     summary.last = serde_json::json!({ "attitude_chains": chains });
@@ -58,8 +53,16 @@ pub fn track(request: &TrackRequest, progress: &dyn Progress) -> Result<Summary,
     let start = Instant::now();
     write_pictures(&request.out, &sequence, &front_end)?;
     summary.timing_ms.insert("pictures".into(), start.elapsed().as_secs_f64() * 1e3);
+    record(&request.out, "track", &request.settings)?;
     summary.write(&request.out)?;
     Ok(summary)
+}
+
+/// The pictures of a folder, and the mask over them if there is one.
+pub(super) fn open(folder: &Path, input: &InputSettings) -> Result<(ImageSequence, Option<GrayImage>), PipelineError> {
+    let sequence = ImageSequence::open_timed(folder, &input.camera_source(), &input.frame_times())?;
+    let mask = input.mask.as_deref().map(|path| read_mask(path, sequence.sensor.camera.size_px())).transpose()?;
+    Ok((sequence, mask))
 }
 
 /// The frames asked for, or all; refused where they do not lie within those there are.

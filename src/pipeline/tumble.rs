@@ -3,15 +3,14 @@
 use super::error::PipelineError;
 use super::front_end_files::{write_front_end, write_pictures};
 use super::progress::Progress;
+use super::settings::{TumbleSettings, record};
 use super::summary::Summary;
-use super::track::{checked_frames, run_front_end};
-use crate::dataset::{CameraSource, ImageSequence, StampedPose, write_tum};
-use crate::navigation::tumbling::{
-    TumblingConfig, TumblingEpoch, TumblingResult, estimate, write_covariance_csv, write_estimate_csv,
-};
-use crate::vision::{FrontEnd, FrontEndConfig, TrackInputs};
+use super::track::{checked_frames, open, run_front_end};
+use crate::dataset::{ImageSequence, StampedPose, write_tum};
+use crate::navigation::tumbling::{TumblingEpoch, TumblingResult, estimate, write_covariance_csv, write_estimate_csv};
+use crate::settings::Settings;
+use crate::vision::{FrontEnd, TrackInputs};
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -22,40 +21,37 @@ pub struct TumbleRequest {
     pub folder: PathBuf,
     /// The result's folder.
     pub out: PathBuf,
-    /// Where the camera's parameters come from.
-    pub camera: CameraSource,
-    /// Pictures to take; all if `None`.
-    pub frames: Option<Range<usize>>,
-    /// Estimator settings.
-    pub config: TumblingConfig,
-    /// Front-end settings.
-    pub front_end: FrontEndConfig,
+    /// Which pictures are taken, and how.
+    pub settings: TumbleSettings,
 }
 
 /// Tracks the pictures, estimates the tumbling motion and writes the result.
 ///
 /// # Errors
-/// Missing or malformed inputs, too few usable pairs, or a file that cannot be written.
+/// A setting out of range, missing or malformed inputs, too few usable pairs, or a file that cannot be written.
 pub fn tumble(request: &TumbleRequest, progress: &dyn Progress) -> Result<Summary, PipelineError> {
-    let sequence = ImageSequence::open(&request.folder, &request.camera)?;
-    let frames = checked_frames(request.frames.clone(), sequence.frames.len())?;
+    let TumbleSettings { input, tumbling: config, front_end: front_end_config } = &request.settings;
+    request.settings.validate()?;
+    let (sequence, mask) = open(&request.folder, input)?;
+    let frames = checked_frames(input.frame_range(), sequence.frames.len())?;
     let options = serde_json::json!({
         "folder": request.folder.display().to_string(),
-        "estimator": request.config,
-        "front_end": request.front_end,
+        "estimator": config,
+        "front_end": front_end_config,
     });
     let mut summary = Summary::new("tumbling", options);
-    let inputs = TrackInputs { frames, every: 1, rotation_prior: None, designated: None, mask: None };
-    let front_end = run_front_end(&sequence, &request.front_end, &inputs, (progress, &mut summary))?;
+    let inputs = TrackInputs { frames, every: input.every, mask: mask.as_ref(), ..TrackInputs::default() };
+    let front_end = run_front_end(&sequence, front_end_config, &inputs, (progress, &mut summary))?;
     let times_ns: Vec<i64> = front_end.frames.iter().map(|f| f.t_ns).collect();
     let start = Instant::now();
     progress.begin("estimating", 1);
-    let result = estimate(&front_end.rotations, &times_ns, &request.config)?;
+    let result = estimate(&front_end.rotations, &times_ns, config)?;
     progress.end();
     summary.timing_ms.insert("estimator".into(), start.elapsed().as_secs_f64() * 1e3);
     describe(&result, &mut summary);
     summary.notes.extend(front_end.center_in_camera.map(|c| center_note(&c)));
     write_result(&request.out, &sequence, (&front_end, &result))?;
+    record(&request.out, "tumble", &request.settings)?;
     summary.write(&request.out)?;
     Ok(summary)
 }

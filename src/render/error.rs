@@ -1,7 +1,7 @@
 //! Everything that can stop a picture from being rendered.
 
 use crate::geometry::CameraError;
-use crate::scene::SceneError;
+use crate::settings::OutOfRange;
 use thiserror::Error;
 
 /// Why no picture could be rendered.
@@ -63,7 +63,7 @@ pub enum RenderError {
     },
     /// A setting outside its range.
     #[error("render.{0}")]
-    Config(#[from] SceneError),
+    Config(#[from] OutOfRange),
     /// The camera's pose or the Sun's direction is not a number.
     #[error("the view at {t_ns} ns holds a value that is not a finite number: check the trajectory")]
     ViewNotFinite {

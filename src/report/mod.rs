@@ -3,7 +3,7 @@
 //! A [`Page`] is plain data, made of [`Section`]s and [`Block`]s; [`write_report`] turns it into a file that needs no
 //! network, no script and no font. [`mission_section`] builds the section of a landing, tumbling or tracking result from
 //! its [`Metrics`](crate::evaluation::Metrics), and [`result_section`] from its folder.
-//! [`scenario_reference`] lists the keys of a scenario in Markdown.
+//! [`scenario_reference`] lists the keys of a scenario in Markdown, [`settings_reference`] the settings of commands.
 
 mod error;
 mod page;
@@ -20,5 +20,5 @@ pub use plot::{
     Curve, LegendEntry, Plot, consistency_plot, error_with_envelope, format_number, label_of, magnitude_plot,
     unit_label,
 };
-pub use reference::scenario_reference;
+pub use reference::{CommandSettings, scenario_reference, settings_reference};
 pub use track_overlay::{contact_sheet, draw_tracks};

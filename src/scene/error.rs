@@ -1,6 +1,6 @@
 //! Everything that can be wrong with a scenario or a shape, each error naming the file or key and the cure.
 
-use super::terrain::TerrainConfigError;
+use crate::settings::{OutOfRange, SettingsError};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -37,15 +37,11 @@ pub enum SceneError {
         problem: String,
     },
     /// A setting outside its range, or one that contradicts another.
-    #[error("{key} is {value}: {cure}")]
-    OutOfRange {
-        /// The key with its tables, as in the scenario file.
-        key: String,
-        /// The value found.
-        value: String,
-        /// What it may be.
-        cure: String,
-    },
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
+    /// Settings that cannot be read.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
     /// A mesh that is no solid body.
     #[error("the mesh {problem}")]
     NotSolid {
@@ -57,15 +53,13 @@ pub enum SceneError {
 impl SceneError {
     /// A setting outside its range.
     pub fn out_of_range(key: &str, value: impl Display, cure: impl Display) -> Self {
-        SceneError::OutOfRange { key: key.into(), value: value.to_string(), cure: cure.to_string() }
+        OutOfRange::new(key, value, cure).into()
     }
 
     /// Puts the name of the enclosing table before the key.
     pub(super) fn under(self, table: &str) -> Self {
         match self {
-            SceneError::OutOfRange { key, value, cure } => {
-                SceneError::OutOfRange { key: format!("{table}.{key}"), value, cure }
-            }
+            SceneError::OutOfRange(fault) => fault.under(table).into(),
             other => other,
         }
     }
@@ -73,16 +67,10 @@ impl SceneError {
     /// Names the file that a setting or a mesh comes from; errors that name a file already stay as they are.
     pub(super) fn in_file(self, path: &Path) -> Self {
         match self {
-            SceneError::OutOfRange { .. } | SceneError::NotSolid { .. } => {
+            SceneError::OutOfRange(_) | SceneError::NotSolid { .. } => {
                 SceneError::Unusable { path: path.into(), problem: self.to_string() }
             }
             other => other,
         }
-    }
-}
-
-impl From<TerrainConfigError> for SceneError {
-    fn from(error: TerrainConfigError) -> Self {
-        SceneError::out_of_range(error.key, error.value, format!("it must be {}", error.range))
     }
 }

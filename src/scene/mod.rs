@@ -58,7 +58,7 @@ pub use stars::{Sky, SkyConfig, Star};
 pub use survey::SurveyLevel;
 pub use terrain::{
     CraterClass, Feature, FeatureSample, GroundBase, GroundDetail, GroundSample, HummockClass, RippleClass, Rock,
-    RockClass, Scatter, Terrain, TerrainConfig, TerrainConfigError, TerrainPatch, UnitClass, rock_density_1_m2,
+    RockClass, Scatter, Terrain, TerrainConfig, TerrainPatch, UnitClass, rock_density_1_m2,
 };
 pub use tumbling::{InertiaSource, PhaseConfig, RigidBody, Spin, TumblingConfig, TumblingScene};
 pub use view::View;

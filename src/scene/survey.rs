@@ -1,13 +1,14 @@
 //! A survey of the ground about a site from high above: what a map of it is made from.
 
-use super::error::SceneError;
 use super::terrain::{GroundDetail, Terrain};
 use crate::geometry::{Camera, Distortion};
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use crate::stats::random_stream;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 use rand::RngExt;
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Height of the camera over the edge of the square that it surveys: it looks down at no more than 14° off its axis along
 /// either side, and shadows are as sharp as in any other picture.
@@ -17,12 +18,47 @@ const BLOCK: usize = 64;
 /// Most pixels along an edge.
 const MOST_POSTS: f64 = 8192.0;
 
+/// The squares of a map of the landing area, which `opnav map` draws.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SurveyConfig {
+    /// Squares about the site, from fine to coarse (default 0.5 m a pixel over 1000 m, 2 m over 4000 m, 8 m over 20000 m).
+    pub levels: Vec<SurveyLevel>,
+}
+
+impl Default for SurveyConfig {
+    fn default() -> Self {
+        let squares = [(0.5, 1000.0), (2.0, 4000.0), (8.0, 20_000.0)];
+        SurveyConfig { levels: squares.map(|(metres_per_px, side_m)| SurveyLevel { metres_per_px, side_m }).to_vec() }
+    }
+}
+
+impl SurveyConfig {
+    /// Checks every square, and that they go from fine to coarse.
+    ///
+    /// # Errors
+    /// Names the key at fault.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        for (index, level) in self.levels.iter().enumerate() {
+            level.validate().map_err(|e| e.under(&index.to_string()).under("levels"))?;
+        }
+        if !self.levels.is_sorted_by(|a, b| a.metres_per_px < b.metres_per_px) || self.levels.is_empty() {
+            let found: Vec<String> = self.levels.iter().map(|level| level.metres_per_px.to_string()).collect();
+            let cure = "it goes from fine to coarse, and there is at least one: order the squares by metres a pixel";
+            return Err(OutOfRange::new("levels", format!("[{}] m a pixel", found.join(", ")), cure));
+        }
+        Ok(())
+    }
+}
+
 /// One square of a survey, centred on the site's origin.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct SurveyLevel {
-    /// Distance between posts, m.
+    /// Distance between posts, m, 0.001 to 10000.
     pub metres_per_px: f64,
-    /// Distance from the first post of a row to its last, m; rounded to a whole, even number of posts' distances.
+    /// Distance from the first post of a row to its last, m, 16 to 8190 posts' distances; rounded to a whole, even number
+    /// of them.
     pub side_m: f64,
 }
 
@@ -31,7 +67,7 @@ impl SurveyLevel {
     ///
     /// # Errors
     /// Names the value outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("metres_per_px", self.metres_per_px, 1e-3, 1e4)?;
         limits::within("side_m", self.side_m, 16.0 * self.metres_per_px, (MOST_POSTS - 2.0) * self.metres_per_px)
     }

@@ -1,6 +1,7 @@
 //! Everything that can go wrong in the front end.
 
 use crate::dataset::DatasetError;
+use crate::settings::OutOfRange;
 use thiserror::Error;
 
 /// Why the front end could not do its work.
@@ -27,16 +28,9 @@ pub enum VisionError {
         /// What is wrong with the first of the others, and what to do.
         problem: String,
     },
-    /// A parameter outside its range.
-    #[error("front-end parameter {name} is {value}: {cure}")]
-    OutOfRange {
-        /// The key.
-        name: &'static str,
-        /// The value found.
-        value: f64,
-        /// What to do.
-        cure: &'static str,
-    },
+    /// A setting outside its range.
+    #[error("front-end setting {0}")]
+    OutOfRange(#[from] OutOfRange),
     /// A mask of another size than its picture.
     #[error("the mask is {mask_width_px}x{mask_height_px} px, but its picture is {width_px}x{height_px} px")]
     MaskSize {

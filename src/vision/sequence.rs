@@ -11,6 +11,7 @@ use super::tracking::{
 };
 use crate::dataset::{Frame, ImageSequence};
 use crate::observations::{PairStatus, TrackObservation};
+use crate::settings::limits;
 use nalgebra::{Vector2, Vector3};
 use std::time::Instant;
 
@@ -85,9 +86,7 @@ pub fn track_sequence(
 }
 
 fn chosen_frames<'a>(sequence: &'a ImageSequence, inputs: &TrackInputs) -> Result<Vec<&'a Frame>, VisionError> {
-    if inputs.every == 0 {
-        return Err(VisionError::OutOfRange { name: "every", value: 0.0, cure: "it must be 1 or more" });
-    }
+    limits::count_from("every", inputs.every, 1)?;
     let end = inputs.frames.end.min(sequence.frames.len());
     let start = inputs.frames.start.min(end);
     let chosen: Vec<&Frame> = sequence.frames[start..end].iter().step_by(inputs.every).collect();

@@ -123,7 +123,7 @@ fn a_heat_shield_in_view_gives_the_grounds_rotation_or_none() {
 }
 
 /// All files under a folder, `summary.json` without its times.
-fn files(folder: &Path, under: &Path, into: &mut BTreeMap<String, Vec<u8>>) {
+pub(super) fn files(folder: &Path, under: &Path, into: &mut BTreeMap<String, Vec<u8>>) {
     for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
         let path = entry.path();
         if path.is_dir() {

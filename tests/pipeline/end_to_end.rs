@@ -2,9 +2,10 @@
 
 use opnav::evaluation::Metrics;
 use opnav::pipeline::{
-    CameraSource, Estimator, FrontEndConfig, FrontEndMode, LandRequest, LandingConfig, Silent, SynthesizeRequest,
-    TumbleRequest, TumblingConfig, evaluate_result, land, synthesize, tumble, write_page,
+    LandRequest, LandSettings, Silent, SynthesizeRequest, TumbleRequest, TumbleSettings, evaluate_result, land,
+    synthesize, tumble, write_page,
 };
+use opnav::settings::Layers;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -13,7 +14,7 @@ fn dataset(scenario: &str, seed: u64, folder: &Path) -> PathBuf {
     let request = SynthesizeRequest {
         scenario: Path::new(env!("CARGO_MANIFEST_DIR")).join("datasets").join(scenario),
         out: out.clone(),
-        overrides: vec![format!("seed={seed}")],
+        layers: Layers::from(&[format!("seed={seed}")][..]),
         frames: None,
         resume: false,
         adapter: None,
@@ -23,25 +24,12 @@ fn dataset(scenario: &str, seed: u64, folder: &Path) -> PathBuf {
 }
 
 fn navigate_descent(images: &Path, out: &Path) {
-    let request = LandRequest {
-        map: None,
-        folder: images.into(),
-        out: out.into(),
-        config: LandingConfig::from_pixels(),
-        front_end: FrontEndConfig::default(),
-    };
+    let request = LandRequest { folder: images.into(), out: out.into(), settings: LandSettings::default() };
     land(&request, &Silent).expect("the descent is navigated");
 }
 
 fn estimate_tumbling(images: &Path, out: &Path) {
-    let request = TumbleRequest {
-        folder: images.into(),
-        out: out.into(),
-        camera: CameraSource::Folder,
-        frames: None,
-        config: TumblingConfig { estimator: Estimator::Shooting, ..TumblingConfig::default() },
-        front_end: FrontEndConfig { mode: FrontEndMode::FixedCenter, ..FrontEndConfig::default() },
-    };
+    let request = TumbleRequest { folder: images.into(), out: out.into(), settings: TumbleSettings::default() };
     tumble(&request, &Silent).expect("the motion is estimated");
 }
 
@@ -152,10 +140,7 @@ fn shuffled_pictures_do_not_converge() {
     let request = TumbleRequest {
         folder: images.clone(),
         out: folder.path().join("result"),
-        camera: CameraSource::Folder,
-        frames: None,
-        config: TumblingConfig { estimator: Estimator::Shooting, ..TumblingConfig::default() },
-        front_end: FrontEndConfig { mode: FrontEndMode::FixedCenter, ..FrontEndConfig::default() },
+        settings: TumbleSettings::default(),
     };
     let converged = tumble(&request, &Silent).is_ok_and(|_| {
         let metrics = evaluate_result(&request.out, &images).expect("the result is evaluated");
@@ -171,7 +156,7 @@ fn a_resumed_data_set_has_the_same_bytes() {
     let request = |out: &str, resume: bool| SynthesizeRequest {
         scenario: Path::new(env!("CARGO_MANIFEST_DIR")).join("datasets/tumbling_small.toml"),
         out: folder.path().join(out),
-        overrides: ["camera.width_px=64", "camera.height_px=64", "tumbling.frames=5"].map(String::from).to_vec(),
+        layers: Layers::from(&["camera.width_px=64", "camera.height_px=64", "tumbling.frames=5"].map(String::from)[..]),
         frames: None,
         resume,
         adapter: None,
@@ -188,7 +173,7 @@ fn a_resumed_data_set_has_the_same_bytes() {
     synthesize(&request("broken", true), &Silent).expect("the data set is completed");
     let manifest = |out: &str| std::fs::read(folder.path().join(out).join("manifest.json")).expect("a manifest");
     assert!(manifest("whole") == manifest("broken"), "the manifests differ");
-    let other = SynthesizeRequest { overrides: vec!["seed=9".into()], ..request("broken", true) };
+    let other = SynthesizeRequest { layers: Layers::from(&["seed=9".into()][..]), ..request("broken", true) };
     assert!(synthesize(&other, &Silent).is_err(), "another scenario was mixed into the data set");
 }
 

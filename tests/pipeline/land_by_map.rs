@@ -4,9 +4,10 @@ use nalgebra::Vector2;
 use opnav::dataset::{read_ground_map, write_ground_map};
 use opnav::evaluation::Metrics;
 use opnav::pipeline::{
-    FrontEndConfig, LandRequest, LandingConfig, MapRequest, Silent, SurveyLevel, SynthesizeRequest, evaluate_result,
-    land, make_map, synthesize,
+    LandInput, LandRequest, LandSettings, MapRequest, Silent, SurveyLevel, SynthesizeRequest, evaluate_result, land,
+    make_map, synthesize,
 };
+use opnav::settings::Layers;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -23,7 +24,7 @@ impl Descent {
         let images = SynthesizeRequest {
             scenario: scenario.clone(),
             out: descent.at("images"),
-            overrides: overrides.to_vec(),
+            layers: Layers::from(overrides),
             frames: None,
             resume: false,
             adapter: None,
@@ -32,7 +33,7 @@ impl Descent {
         let map = MapRequest {
             scenario,
             out: descent.at("map"),
-            overrides: overrides.to_vec(),
+            layers: Layers::from(overrides),
             levels: levels.to_vec(),
             adapter: None,
         };
@@ -49,9 +50,10 @@ impl Descent {
         let request = LandRequest {
             folder: self.at("images"),
             out: self.at("landing"),
-            map: map.map(|name| self.at(name)),
-            config: LandingConfig::from_pixels(),
-            front_end: FrontEndConfig::default(),
+            settings: LandSettings {
+                input: LandInput { map: map.map(|name| self.at(name)) },
+                ..LandSettings::default()
+            },
         };
         let summary = land(&request, &Silent).expect("the descent is navigated");
         (evaluate_result(&request.out, &request.folder).expect("the result is evaluated"), summary.notes)

@@ -7,9 +7,10 @@
 use crate::accuracy_bar::{Bar, check_table};
 use opnav::evaluation::Metrics;
 use opnav::pipeline::{
-    FrontEndConfig, LandRequest, LandingConfig, MapRequest, Silent, SynthesizeRequest, evaluate_result, land, make_map,
+    LandInput, LandRequest, LandSettings, MapRequest, Silent, SynthesizeRequest, evaluate_result, land, make_map,
     synthesize,
 };
+use opnav::settings::Layers;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -45,7 +46,7 @@ fn descent(seed: u64, store: &Store) -> PathBuf {
         let request = SynthesizeRequest {
             scenario: scenario(),
             out: out.clone(),
-            overrides: vec![format!("seed={seed}")],
+            layers: Layers::from(&[format!("seed={seed}")][..]),
             frames: None,
             resume: out.exists(),
             adapter: None,
@@ -60,9 +61,7 @@ fn navigated(images: &Path, map: Option<PathBuf>) -> Metrics {
     let request = LandRequest {
         folder: images.into(),
         out: folder.path().join("landing"),
-        config: LandingConfig::from_pixels(),
-        front_end: FrontEndConfig::default(),
-        map,
+        settings: LandSettings { input: LandInput { map }, ..LandSettings::default() },
     };
     land(&request, &Silent).expect("the descent is navigated");
     evaluate_result(&request.out, images).expect("the result is evaluated")
@@ -139,9 +138,9 @@ fn accuracy_of_rendered_landings() {
         let images = descent(seed, &store);
         let map = store.path().join(format!("map{seed}"));
         if !map.is_dir() {
-            let overrides = vec![format!("seed={seed}")];
-            let levels = MapRequest::LEVELS.to_vec();
-            let request = MapRequest { scenario: scenario(), out: map.clone(), overrides, levels, adapter: None };
+            let layers = Layers::from(&[format!("seed={seed}")][..]);
+            let levels = Vec::new();
+            let request = MapRequest { scenario: scenario(), out: map.clone(), layers, levels, adapter: None };
             make_map(&request, &Silent).expect("the map is drawn");
         }
         alone.push(navigated(&images, None));

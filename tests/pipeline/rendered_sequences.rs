@@ -4,9 +4,10 @@ use crate::accuracy_bar::{Bar, check_table};
 use crate::vision::accuracy::known_center::with_known_center;
 use opnav::evaluation::Metrics;
 use opnav::pipeline::{
-    CameraSource, FrameTimes, FrontEndConfig, FrontEndMode, LandRequest, LandingConfig, Silent, SynthesizeRequest,
-    TrackRequest, evaluate_result, land, synthesize, track,
+    FrontEndConfig, FrontEndMode, InputSettings, LandRequest, LandSettings, Silent, SynthesizeRequest, TrackRequest,
+    TrackSettings, evaluate_result, land, synthesize, track,
 };
+use opnav::settings::Layers;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -25,7 +26,7 @@ fn render(scenario: &str, seed: Option<u64>, frames: Option<Range<usize>>, folde
     let request = SynthesizeRequest {
         scenario: Path::new(env!("CARGO_MANIFEST_DIR")).join("datasets").join(scenario).with_extension("toml"),
         out: out.clone(),
-        overrides: seed.iter().map(|seed| format!("seed={seed}")).collect(),
+        layers: Layers { file: None, overrides: seed.iter().map(|seed| format!("seed={seed}")).collect() },
         frames,
         resume: false,
         adapter: None,
@@ -40,12 +41,10 @@ fn tracked(images: &Path, frames: Option<Range<usize>>, mode: FrontEndMode) -> (
     let request = TrackRequest {
         folder: images.into(),
         out: images.with_file_name(format!("tracks_{part}")),
-        camera: CameraSource::Folder,
-        times: FrameTimes::default(),
-        every: 1,
-        frames,
-        mask: None,
-        config: FrontEndConfig { mode, ..FrontEndConfig::default() },
+        settings: TrackSettings {
+            input: InputSettings { frames: frames.map(|f| [f.start, f.end]), ..InputSettings::default() },
+            front_end: FrontEndConfig { mode, ..FrontEndConfig::default() },
+        },
     };
     track(&request, &Silent).expect("the sequence is tracked");
     (evaluate_result(&request.out, images).expect("the result is evaluated"), request.out)
@@ -91,13 +90,8 @@ fn descent() -> Vec<Bar> {
         bars.extend(consistency_bars(&format!("{what}, terrain 1 alone"), nees));
         bars.extend(consistency_bars(&format!("{what}, five terrains"), mean_nees(first, nees)));
     }
-    let request = LandRequest {
-        map: None,
-        folder: images.clone(),
-        out: folder.path().join("landing"),
-        config: LandingConfig::from_pixels(),
-        front_end: FrontEndConfig::default(),
-    };
+    let request =
+        LandRequest { folder: images.clone(), out: folder.path().join("landing"), settings: LandSettings::default() };
     land(&request, &Silent).expect("the descent is navigated");
     let metrics = evaluate_result(&request.out, &images).expect("the result is evaluated");
     let far_px = figure(&metrics, "tracked_point_pixel_error_beyond_3km_max");

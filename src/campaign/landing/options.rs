@@ -1,14 +1,15 @@
 //! What a campaign varies.
 
-use crate::evaluation::EvaluationError;
 use crate::geometry::Camera;
 use crate::navigation::landing::{CameraMount, LandingConfig, Planet};
 use crate::scene::{GuidanceConfig, GuidanceProfile};
+use crate::settings::{OutOfRange, limits};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What the lander can see.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum FieldOfView {
     /// Every direction, and a surface point wherever one is wished for: the paper's simulation.
@@ -41,33 +42,33 @@ impl FieldOfView {
 }
 
 /// Options of a campaign of simulated landings.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CampaignOptions {
-    /// Number of flights (default 300).
+    /// Number of flights, 1 to 1000000 (default 300).
     pub runs: u64,
-    /// Seed; flight k of a seed is the same whatever else is flown (default 1).
+    /// Seed, 0 to 2⁶³-1 (default 1); flight k of a seed is the same whatever else is flown.
     pub seed: u64,
     /// The filter's options.
     pub filter: LandingConfig,
     /// The path.
     pub guidance: GuidanceConfig,
-    /// True rotation of the planet in the site's axes, rad/s (default 0); the filter has its own.
+    /// True rotation of the planet in the site's axes, rad/s (default 0, 0, 0); the filter has its own.
     pub planet_rate_in_site_rad_s: [f64; 3],
     /// What the lander sees (default everywhere).
     pub field_of_view: FieldOfView,
-    /// 1σ of a bearing, rad (default 1e-3).
+    /// 1σ of a bearing, rad, above 0 (default 1e-3).
     pub sigma_bearing_rad: f64,
     /// Share of bearings that are wrong by up to 20°, 0 to 0.5 (default 0).
     pub outlier_share: f64,
-    /// Heights of smooth relief, m: then neighbouring landmarks have neighbouring heights. 0 (default) draws each
-    /// landmark's height from the ground prior, as the reference simulation does.
+    /// Heights of smooth relief, m, 0 to 200 (default 0): then neighbouring landmarks have neighbouring heights. 0 draws
+    /// each landmark's height from the ground prior, as the reference simulation does.
     pub relief_m: f64,
     /// Places of further known landmarks, site frame, m (default none).
     pub known_landmarks_m: Vec<[f64; 3]>,
-    /// Accelerometer noise of a step of 1 s, m/s² (default 5e-4).
+    /// Accelerometer noise of a step of 1 s, m/s², above 0 (default 5e-4).
     pub sigma_force_m_s2: f64,
-    /// Gyroscope noise of a step of 1 s, °/s (default 2.78e-5).
+    /// Gyroscope noise of a step of 1 s, °/s, above 0 (default 2.78e-5).
     pub sigma_rate_deg_s: f64,
 }
 
@@ -116,23 +117,17 @@ impl CampaignOptions {
     ///
     /// # Errors
     /// Names the option at fault.
-    pub fn validate(&self) -> Result<(), EvaluationError> {
-        let wrong = |option: &'static str, problem: String| EvaluationError::Campaign { option, problem };
-        self.filter.validate().map_err(|e| wrong("filter", e.to_string()))?;
-        self.guidance.validate().map_err(|e| wrong("guidance", e.to_string()))?;
-        let known: f64 = self.known_landmarks_m.iter().flatten().sum();
-        let checks = [
-            ("runs", self.runs as f64, (1..=1_000_000).contains(&self.runs), "1 to 1000000"),
-            ("sigma_bearing_rad", self.sigma_bearing_rad, self.sigma_bearing_rad > 0.0, "above 0, such as 1e-3"),
-            ("outlier_share", self.outlier_share, (0.0..=0.5).contains(&self.outlier_share), "0 to 0.5"),
-            ("relief_m", self.relief_m, (0.0..=200.0).contains(&self.relief_m), "0 to 200"),
-            ("known_landmarks_m", known, true, "finite"),
-            ("sigma_force_m_s2", self.sigma_force_m_s2, self.sigma_force_m_s2 > 0.0, "above 0, such as 5e-4"),
-            ("sigma_rate_deg_s", self.sigma_rate_deg_s, self.sigma_rate_deg_s > 0.0, "above 0, such as 2.78e-5"),
-        ];
-        match checks.into_iter().find(|(_, value, fine, _)| !(*fine && value.is_finite())) {
-            Some((option, value, _, range)) => Err(wrong(option, format!("is {value}, not {range}"))),
-            None => Ok(()),
-        }
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        limits::count("runs", self.runs as usize, 1, 1_000_000)?;
+        limits::seed("seed", self.seed)?;
+        self.filter.validate().map_err(|e| e.under("filter"))?;
+        self.guidance.validate().map_err(|e| e.under("guidance"))?;
+        limits::finite("planet_rate_in_site_rad_s", &self.planet_rate_in_site_rad_s)?;
+        limits::positive("sigma_bearing_rad", self.sigma_bearing_rad)?;
+        limits::within("outlier_share", self.outlier_share, 0.0, 0.5)?;
+        limits::within("relief_m", self.relief_m, 0.0, 200.0)?;
+        limits::finite("known_landmarks_m", self.known_landmarks_m.as_flattened())?;
+        limits::positive("sigma_force_m_s2", self.sigma_force_m_s2)?;
+        limits::positive("sigma_rate_deg_s", self.sigma_rate_deg_s)
     }
 }

@@ -1,21 +1,15 @@
 //! What can be wrong with the navigation of a landing.
 
 use crate::geometry::CameraError;
+use crate::settings::OutOfRange;
 use thiserror::Error;
 
 /// Why a descent could not be navigated.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum LandingError {
     /// An option outside its range.
-    #[error("landing option {key} is {value}: {cure}")]
-    Config {
-        /// The key.
-        key: &'static str,
-        /// The value found.
-        value: f64,
-        /// What to do.
-        cure: &'static str,
-    },
+    #[error("landing option {0}")]
+    OutOfRange(#[from] OutOfRange),
     /// The camera cannot be used.
     #[error("the lander's camera cannot be used: {0}")]
     Camera(#[from] CameraError),

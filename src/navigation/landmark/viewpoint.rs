@@ -1,19 +1,22 @@
 //! From where, and how well known, landmarks are seen.
 
+use crate::settings::{OutOfRange, limits};
 use nalgebra::{Rotation3, SMatrix, Unit, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What is known of the ground before it is measured: its height above the site's plane z = 0.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct GroundPrior {
-    /// Largest 1σ of the height, m.
+    /// Largest 1σ of the height, m, no less than `sigma_floor_m` (default 30).
     pub sigma_height_m: f64,
-    /// 1σ of the height per metre of horizontal distance from the site (it is 0 at the site itself).
+    /// 1σ of the height per metre of horizontal distance from the site, where it is 0, 0 or more (default 0.08).
     pub sigma_slope: f64,
-    /// 1σ that remains at the site, m.
+    /// 1σ that remains at the site, m, above 0 (default 0.1).
     pub sigma_floor_m: f64,
-    /// Landmarks farther than this from nadir, as seen by the lander, are not used, rad.
+    /// Landmarks farther than this from nadir, as seen by the lander, are not used, rad, between 0 and 1.5
+    /// (default 1.2217, 70°).
     pub largest_off_nadir_rad: f64,
 }
 
@@ -30,6 +33,17 @@ impl Default for GroundPrior {
 }
 
 impl GroundPrior {
+    /// Checks every range.
+    ///
+    /// # Errors
+    /// Names the key and the cure.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        limits::positive("sigma_floor_m", self.sigma_floor_m)?;
+        limits::at_least("sigma_height_m", self.sigma_height_m, self.sigma_floor_m)?;
+        limits::at_least("sigma_slope", self.sigma_slope, 0.0)?;
+        limits::between("largest_off_nadir_rad", self.largest_off_nadir_rad, 0.0, 1.5)
+    }
+
     /// 1σ of the ground's height (m) at a point of the site frame.
     pub fn sigma_at_m(&self, point_in_site_m: &Vector3<f64>) -> f64 {
         self.sigma_at_distance_m(point_in_site_m.xy().norm())

@@ -1,6 +1,7 @@
 //! What can go wrong in estimating a tumble.
 
 use crate::dataset::DatasetError;
+use crate::settings::OutOfRange;
 use thiserror::Error;
 
 /// Why there is no estimate.
@@ -48,16 +49,9 @@ pub enum TumblingError {
         /// What is wrong with it.
         problem: &'static str,
     },
-    /// A configuration value outside its range.
-    #[error("tumbling setting {key} is {value}: {cure}")]
-    BadConfig {
-        /// Name of the setting.
-        key: &'static str,
-        /// The value found.
-        value: f64,
-        /// What to do.
-        cure: &'static str,
-    },
+    /// A setting outside its range.
+    #[error("tumbling setting {0}")]
+    OutOfRange(#[from] OutOfRange),
     /// No free rigid body moves like this.
     #[error(
         "no freely turning rigid body fits the rotations (typical misfit {misfit_deg:.2} degrees, {misfit_sigma:.0} times \

@@ -1,12 +1,13 @@
 //! Known points for a descent: each picture matched with a map from where the filter predicts the camera.
 
 use crate::dataset::{GroundMap, ImageSequence};
-use crate::navigation::landing::{KnownSighting, LandingConfig, LandingInput, SightedByMap, sighted_by_map};
+use crate::navigation::landing::{KnownSighting, LandingInput, SightedByMap, sighted_by_map};
 use crate::observations::{PredictedCamera, TrackObservation};
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::progress::Progress;
+use crate::pipeline::settings::LandSettings;
 use crate::pipeline::summary::Summary;
-use crate::vision::{DesignatedStep, MapFix, MapMatchConfig, MapMatcher, MapSighting, MapStatus};
+use crate::vision::{DesignatedStep, MapFix, MapMatcher, MapSighting, MapStatus};
 use std::time::Instant;
 
 /// Sightings of the map's points in every picture of a descent, counted in the summary.
@@ -15,12 +16,12 @@ use std::time::Instant;
 /// Settings out of range, or IMU samples that do not fit the pictures.
 pub(super) fn known_sightings(
     sequence: &ImageSequence,
-    (input, config): (&LandingInput, &LandingConfig),
+    (input, settings): (&LandingInput, &LandSettings),
     (map, designated): (&GroundMap, &[DesignatedStep]),
     (progress, summary): (&dyn Progress, &mut Summary),
 ) -> Result<SightedByMap, PipelineError> {
     let start = Instant::now();
-    let matcher = MapMatcher::new(map, &MapMatchConfig::default())?;
+    let matcher = MapMatcher::new(map, &settings.map)?;
     progress.begin("matching the map", input.frame_times_ns.len());
     let mut look = |camera: &PredictedCamera, t_ns: i64| -> Result<Option<Vec<KnownSighting>>, PipelineError> {
         progress.advance_to(input.frame_times_ns.partition_point(|time_ns| *time_ns <= t_ns));
@@ -31,7 +32,7 @@ pub(super) fn known_sightings(
         Ok(Some(fix.sightings.iter().map(|s| known_sighting(t_ns, s)).collect()))
     };
     let tracked: Vec<TrackObservation> = designated.iter().map(drifted).collect();
-    let sighted = sighted_by_map(input, &tracked, config, &mut look)?;
+    let sighted = sighted_by_map(input, &tracked, &settings.landing, &mut look)?;
     progress.end();
     summary.counts.insert("map_sightings".into(), sighted.known.len());
     summary.timing_ms.insert("map".into(), start.elapsed().as_secs_f64() * 1e3);

@@ -12,8 +12,10 @@ use crate::navigation::landing::{
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::front_end_files::{write_front_end, write_pictures};
 use crate::pipeline::progress::Progress;
+use crate::pipeline::settings::{LandSettings, record as write_settings};
 use crate::pipeline::summary::Summary;
 use crate::pipeline::track::run_front_end;
+use crate::settings::Settings;
 use crate::vision::{FrontEnd, FrontEndConfig, TrackInputs, drift_a_picture_px};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -25,29 +27,27 @@ pub struct LandRequest {
     pub folder: PathBuf,
     /// The result's folder.
     pub out: PathBuf,
-    /// The folder of a map that gives known points, if any.
-    pub map: Option<PathBuf>,
-    /// Filter settings.
-    pub config: LandingConfig,
-    /// Front-end settings.
-    pub front_end: FrontEndConfig,
+    /// How it is navigated.
+    pub settings: LandSettings,
 }
 
 /// Tracks the pictures, runs the landing filter and writes the result.
 ///
 /// # Errors
-/// Missing or malformed inputs, or a file that cannot be written.
+/// A setting out of range, missing or malformed inputs, or a file that cannot be written.
 pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, PipelineError> {
+    let LandSettings { input: besides, landing: filter, .. } = &request.settings;
+    request.settings.validate()?;
     let sequence = ImageSequence::open(&request.folder, &CameraSource::Folder)?;
     let (imu_noise, imu) = read_imu(&sequence.root)?;
     let designated = read_designated(&sequence.root)?;
     let initial = read_initial_state(&sequence.root)?;
-    let front_end_config = with_gyro_prior(&request.front_end);
-    let map = request.map.as_deref().map(read_ground_map).transpose()?;
+    let front_end_config = with_gyro_prior(&request.settings.front_end);
+    let map = besides.map.as_deref().map(read_ground_map).transpose()?;
     let options = serde_json::json!({
         "folder": request.folder.display().to_string(),
-        "map": request.map.as_ref().map(|folder| folder.display().to_string()),
-        "filter": request.config,
+        "map": besides.map.as_ref().map(|folder| folder.display().to_string()),
+        "filter": filter,
         "front_end": front_end_config,
     });
     let mut summary = Summary::new("landing", options);
@@ -80,19 +80,20 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
     };
     if let Some(map) = &map {
         let designated = front_end.designated.as_slice();
-        let sighted =
-            known_sightings(&sequence, (&input, &request.config), (map, designated), (progress, &mut summary))?;
+        let by = (&input, &request.settings);
+        let sighted = known_sightings(&sequence, by, (map, designated), (progress, &mut summary))?;
         summary.notes.extend(map_note(&sighted.points));
         input.known = sighted.known;
     }
     let start = Instant::now();
     progress.begin("navigating", input.frame_times_ns.len());
-    let config = with_designated_errors(&request.config, &front_end);
+    let config = with_designated_errors(filter, &front_end);
     let result = navigate(&input, &config, &|done| progress.advance_to(done))?;
     progress.end();
     summary.timing_ms.insert("filter".into(), start.elapsed().as_secs_f64() * 1e3);
     describe(&result, &config, &mut summary);
     write_result(&request.out, &sequence, (&front_end, &result))?;
+    write_settings(&request.out, "land", &request.settings)?;
     summary.write(&request.out)?;
     Ok(summary)
 }

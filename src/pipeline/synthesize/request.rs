@@ -1,5 +1,6 @@
 //! What is asked of a synthesis, and what comes of it.
 
+use crate::settings::Layers;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -24,8 +25,8 @@ pub struct SynthesizeRequest {
     pub scenario: PathBuf,
     /// The data set's folder.
     pub out: PathBuf,
-    /// `key=value` changes to the scenario, dotted keys.
-    pub overrides: Vec<String>,
+    /// What is laid over the scenario.
+    pub layers: Layers,
     /// Frames of each camera to make beside those that are there already; all if `None`.
     pub frames: Option<Range<usize>>,
     /// Continue an interrupted job.

@@ -23,7 +23,7 @@ use std::path::Path;
 /// A bad scenario, no adapter, a folder in use, or a file that cannot be written. Finished frames stay and `resume`
 /// continues after them.
 pub fn synthesize(request: &SynthesizeRequest, progress: &dyn Progress) -> Result<Synthesized, PipelineError> {
-    let scenario = Scenario::read(&request.scenario, &request.overrides)?;
+    let scenario = Scenario::read_under(&request.scenario, &request.layers)?;
     let scene = scenario.build(request.scenario.parent().unwrap_or(Path::new(".")))?;
     let available = scene.cameras()[0].views.len();
     let range = checked_frames(request.frames.clone(), available)?;

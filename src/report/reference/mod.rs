@@ -1,6 +1,6 @@
-//! The reference of a scenario's keys, made from the types.
+//! The reference of a scenario's keys and of the commands' settings, made from the types.
 
 mod scenario_keys;
 mod text;
 
-pub use scenario_keys::scenario_reference;
+pub use scenario_keys::{CommandSettings, scenario_reference, settings_reference};

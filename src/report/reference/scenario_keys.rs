@@ -1,22 +1,48 @@
-//! The reference of a scenario's keys, from the schema of its types.
+//! The reference of a scenario's keys and of the commands' settings, from the schemas of their types.
 
-use super::text::{default_text, kind_text, meaning_text, single_spaced};
+use super::text::{agreed_default, default_text, kind_text, meaning_text, range_text, single_spaced};
 use serde_json::Value;
 
-const PREFACE: &str = "\
+const SCENARIO: &str = "\
 # Every key of a scenario
 
-Made by `opnav reference` from the types that read a scenario: one section a table, with every path at which the table may
-stand. A key without \"required\" may be left out; unknown keys are refused. Units: SI unless the key says otherwise, angles in
-degrees (`_deg`). A table that is written in part keeps the defaults of its other keys.
+Made by `opnav reference scenario` from the types that read a scenario: one section a table, with every path at which the
+table may stand. A key without \"required\" may be left out; unknown keys are refused. Units: SI unless the key says otherwise,
+angles in degrees (`_deg`). A table that is written in part keeps the defaults of its other keys.
 Of a choice one line is written, with the keys below it: `exposure = \"auto\"`, or `exposure.fixed = { … }`.
+`opnav render`, `map` and `bench render` lay `--config FILE`, with the same keys, over the scenario, and `--set key=value` over
+that.
 ";
+
+const SETTINGS: &str = "\
+# Every setting of the commands
+
+Made by `opnav reference settings` from the types that hold them: one section a table, with the commands that have it.
+Defaults lie below the file of `--config FILE` (TOML), that below `--set key=value` (`--set front_end.detector.max_features=500`;
+may be repeated), and that below options of their own, such as `--descriptor`. A table that is written in part keeps the other
+values; unknown keys are refused. Units: SI unless the key says otherwise; degrees only in keys that end in `_deg` or `_deg_s`.
+Each command writes `settings.toml` beside its result, with every setting as used; `--config` reads it back.
+`opnav render`, `map` and `bench render` read a scenario, whose keys `opnav reference scenario` lists.
+";
+
+/// The settings of one command.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CommandSettings {
+    /// The command, such as `land`.
+    pub command: &'static str,
+    /// JSON schema of the settings: definitions under `$defs`, descriptions from the types' documentation.
+    pub schema: Value,
+    /// The settings without file and options.
+    pub defaults: Value,
+}
 
 /// A table of keys, or a choice between several.
 struct Section {
     type_name: String,
     /// Paths with their brackets: `[sensor]`, `[[cameras]]`.
     headings: Vec<String>,
+    /// The commands that have it; none for a scenario's.
+    commands: Vec<String>,
     about: String,
     rows: Vec<Row>,
 }
@@ -25,7 +51,9 @@ struct Section {
 struct Row {
     key: String,
     kind: String,
-    default: String,
+    /// The default of each command, in the order of the section's commands.
+    defaults: Vec<String>,
+    range: String,
     meaning: String,
 }
 
@@ -38,62 +66,125 @@ struct Entry<'a> {
     required: bool,
 }
 
-struct Book<'a> {
-    definitions: &'a Value,
+/// Where a table stands, and what its keys hold by default in a command.
+struct Spot<'a> {
+    path: String,
+    is_list: bool,
+    node: &'a Value,
+    default: Option<&'a Value>,
+}
+
+/// Sections made so far.
+#[derive(Default)]
+struct Book {
     sections: Vec<Section>,
+}
+
+/// A schema that is gone through.
+struct Source<'a> {
+    command: Option<&'a str>,
+    definitions: &'a Value,
 }
 
 /// The reference in Markdown; `schema` is a JSON schema of the scenario file: definitions under `$defs`,
 /// descriptions from the types' documentation.
 pub fn scenario_reference(schema: &Value) -> String {
-    let mut book = Book { definitions: &schema["$defs"], sections: Vec::new() };
-    book.visit("", false, schema);
-    let sections: Vec<String> = book.sections.iter().map(Section::markdown).collect();
-    format!("{PREFACE}\n{}", sections.join("\n"))
+    let mut book = Book::default();
+    Source { command: None, definitions: &schema["$defs"] }.visit(&mut book, Spot::top(schema, None));
+    book.markdown(SCENARIO)
 }
 
-impl<'a> Book<'a> {
-    /// Notes the table at `path` and every table below it.
-    fn visit(&mut self, path: &str, is_list: bool, node: &'a Value) {
-        let (type_name, table) = self.target(node);
-        let entries = self.entries(table);
-        let heading = match (table["properties"].is_object(), is_list) {
-            _ if path.is_empty() => "The top of the file".into(),
-            (true, true) => format!("`[[{path}]]`"),
-            (true, false) => format!("`[{path}]`"),
-            (false, _) => format!("`{path}`"),
-        };
-        match self.sections.iter_mut().find(|s| s.type_name == type_name) {
-            Some(section) => section.headings.push(heading),
-            None => {
-                let rows = entries.iter().map(|e| self.row(e)).collect();
-                let about = single_spaced(table["description"].as_str().unwrap_or_default());
-                self.sections.push(Section { type_name: type_name.into(), headings: vec![heading], about, rows });
-            }
+/// The reference of the commands' settings in Markdown. A type that several commands have stands there once.
+pub fn settings_reference(commands: &[CommandSettings]) -> String {
+    let mut book = Book::default();
+    for CommandSettings { command, schema, defaults } in commands {
+        let source = Source { command: Some(command), definitions: &schema["$defs"] };
+        source.visit(&mut book, Spot::top(schema, Some(defaults)));
+    }
+    book.markdown(SETTINGS)
+}
+
+impl<'a> Spot<'a> {
+    fn top(node: &'a Value, default: Option<&'a Value>) -> Self {
+        Spot { path: String::new(), is_list: false, node, default }
+    }
+
+    fn heading(&self, command: Option<&str>, is_table: bool) -> String {
+        let path = &self.path;
+        match (command, is_table, self.is_list) {
+            (None, ..) if path.is_empty() => "The top of the file".into(),
+            (Some(command), ..) if path.is_empty() => format!("`opnav {command}`"),
+            (_, true, true) => format!("`[[{path}]]`"),
+            (_, true, false) => format!("`[{path}]`"),
+            (_, false, _) => format!("`{path}`"),
         }
+    }
+
+    fn default_of(&self, key: &str) -> Option<&'a Value> {
+        self.default.and_then(|table| table.get(key))
+    }
+}
+
+impl<'a> Source<'a> {
+    /// Notes the table at a spot and every table below it; what another command is made of stands with that command.
+    fn visit(&self, book: &mut Book, spot: Spot<'a>) {
+        let (type_name, table) = self.target(spot.node);
+        let entries = self.entries(table);
+        let heading = spot.heading(self.command, table["properties"].is_object());
+        let found = book.sections.iter().position(|s| s.type_name == type_name);
+        if found.is_some_and(|at| book.sections[at].headings[0].starts_with("`opnav")) {
+            return;
+        }
+        let at = found.unwrap_or(book.sections.len());
+        if found.is_none() {
+            let about = single_spaced(table["description"].as_str().unwrap_or_default());
+            let rows = entries.iter().map(|e| self.row(e)).collect();
+            let (headings, commands) = (Vec::new(), Vec::new());
+            book.sections.push(Section { type_name: type_name.into(), headings, commands, about, rows });
+        }
+        let defaults = entries.iter().map(|e| self.default(e, &spot)).collect();
+        book.sections[at].add(heading, self.command, defaults);
         for entry in entries {
-            let item = if entry.node["items"].is_object() { &entry.node["items"] } else { entry.node };
-            if self.is_table(item) {
-                let below = [path, &entry.key].join(if path.is_empty() { "" } else { "." });
-                self.visit(&below, item != entry.node, item);
+            let is_list = entry.node["items"].is_object();
+            let node = if is_list { &entry.node["items"] } else { entry.node };
+            if self.is_table(node) {
+                let path =
+                    [&spot.path, &entry.key].map(String::as_str).join(if spot.path.is_empty() { "" } else { "." });
+                let default = spot.default_of(&entry.key);
+                self.visit(book, Spot { path, is_list, node, default });
             }
         }
     }
 
     fn row(&self, entry: &Entry) -> Row {
         let (_, target) = self.target(entry.node);
-        let required = if entry.required { "required".into() } else { String::new() };
         let choice = variants(target).next().is_some();
         Row {
             key: entry.key.clone(),
             kind: match self.is_table(entry.node) {
                 true if choice => "choice".into(),
                 true => "table".into(),
+                false if entry.node["items"]["$ref"].is_string() && !self.is_table(&entry.node["items"]) => {
+                    "list of names".into()
+                }
                 false => kind_text(&entry.key, target),
             },
-            default: default_text(entry.node).unwrap_or(required),
+            defaults: Vec::new(),
+            range: range_text(entry.words).unwrap_or_default(),
             meaning: meaning_text(entry.words, target),
         }
+    }
+
+    /// The default of a key: a command's own, or else what the type's documentation says.
+    fn default(&self, entry: &Entry, spot: &Spot) -> String {
+        let said = default_text(entry.node);
+        let text = match (self.command, spot.default_of(&entry.key)) {
+            (None, _) => said,
+            (Some(_), Some(value)) => agreed_default(said, value),
+            (Some(_), None) => said,
+        };
+        let required = if entry.required { "required" } else { "" };
+        text.unwrap_or_else(|| required.into())
     }
 
     /// The keys of a table, or the values and keys of a choice; the keys of a choice's own table stand behind its name.
@@ -151,14 +242,47 @@ fn properties<'a>(table: &'a Value, prefix: &str) -> Vec<Entry<'a>> {
     table["properties"].as_object().into_iter().flatten().map(entry).collect()
 }
 
+impl Book {
+    fn markdown(&self, preface: &str) -> String {
+        let sections: Vec<String> = self.sections.iter().map(Section::markdown).collect();
+        format!("{preface}\n{}", sections.join("\n"))
+    }
+}
+
 impl Section {
+    /// Notes another place where the table stands, with its defaults there.
+    fn add(&mut self, heading: String, command: Option<&str>, defaults: Vec<String>) {
+        if !self.headings.contains(&heading) {
+            self.headings.push(heading);
+        }
+        let is_new = command.is_none() || !self.commands.iter().any(|known| Some(known.as_str()) == command);
+        self.commands.extend(command.filter(|_| is_new).map(String::from));
+        if is_new {
+            self.rows.iter_mut().zip(defaults).for_each(|(row, default)| row.defaults.push(default));
+        }
+    }
+
     fn markdown(&self) -> String {
+        let is_top = self.headings[0].starts_with("`opnav");
+        let of = self.commands.iter().map(|command| format!("`{command}`")).collect::<Vec<_>>().join(", ");
+        let of = if is_top || of.is_empty() { String::new() } else { format!(" Of {of}.") };
         let headings = self.headings.join(", ");
-        let mut text =
-            format!("## {headings}\n\n{}\n\n| key | type, unit | default | meaning |\n|---|---|---|---|\n", self.about);
-        for Row { key, kind, default, meaning } in &self.rows {
-            text += &format!("| `{key}` | {kind} | {default} | {meaning} |\n");
+        let head = "| key | type, unit | default | range | meaning |\n|---|---|---|---|---|\n";
+        let mut text = format!("## {headings}\n\n{}{of}\n\n{head}", self.about);
+        for row in &self.rows {
+            let Row { key, kind, range, meaning, .. } = row;
+            text += &format!("| `{key}` | {kind} | {} | {range} | {meaning} |\n", row.default(&self.commands));
         }
         text
+    }
+}
+
+impl Row {
+    /// The first command's default, and those of others where they differ.
+    fn default(&self, commands: &[String]) -> String {
+        let Some(first) = self.defaults.first() else { return String::new() };
+        let others = self.defaults.iter().zip(commands).filter(|(default, _)| *default != first);
+        let others = others.map(|(default, command)| format!("; in `{command}` {default}"));
+        first.clone() + &others.collect::<String>()
     }
 }

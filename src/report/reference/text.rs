@@ -23,6 +23,7 @@ const UNITS: &[(&str, &str)] = &[
     ("_m3_s2", "m³/s²"),
     ("_m_s2", "m/s²"),
     ("_rad_s", "rad/s"),
+    ("_rad", "rad"),
     ("_deg_s", "°/s"),
     ("_m_s", "m/s"),
     ("_deg", "°"),
@@ -93,12 +94,60 @@ pub(super) fn default_text(node: &Value) -> Option<String> {
     said.or_else(|| (!value.is_null() && !value.is_object()).then(|| format!("`{value}`")))
 }
 
-/// What a key means, without its default, and what each of its values does.
+/// A command's default of a key: what the documentation says where it is the same, or else the value itself.
+pub(super) fn agreed_default(said: Option<String>, value: &Value) -> Option<String> {
+    if value.is_object() || value.is_null() {
+        return None;
+    }
+    let plain = value.as_str().map_or_else(|| value.to_string(), String::from);
+    let words = |text: &str| -> Vec<String> {
+        let parts = text.split(|c: char| c.is_whitespace() || ":,[]`\"".contains(c));
+        parts.filter(|part| !part.is_empty()).map(String::from).collect()
+    };
+    let same = |(said, holds): (&String, &String)| match (said.parse::<f64>(), holds.parse::<f64>()) {
+        (Ok(said), Ok(holds)) => (said - holds).abs() <= 1e-4 * holds.abs(),
+        _ => said == holds,
+    };
+    let holds = words(&plain);
+    let agrees = |said: &String| words(said).len() >= holds.len() && words(said).iter().zip(&holds).all(same);
+    said.filter(|said| !holds.is_empty() && agrees(said)).or_else(|| Some(format!("`{value}`")))
+}
+
+/// What a key may be, as its documentation says before the default.
+pub(super) fn range_text(node: &Value) -> Option<String> {
+    let text = single_spaced(node["description"].as_str()?);
+    range_place(&text).map(|(start, end)| text[start..end].to_string())
+}
+
+/// Where a range stands in a text: after the last comma before ` (default …)`, or before the first sentence's end.
+fn range_place(text: &str) -> Option<(usize, usize)> {
+    let sentence = text.find(". ").unwrap_or(text.trim_end_matches('.').len());
+    let end = text.find(OPENING).unwrap_or(sentence);
+    let start = text[..end].rfind(", ")? + 2;
+    let words: Vec<&str> = text[start..end].split(' ').collect();
+    let is_range = match words.as_slice() {
+        [low, "to", _]
+        | [low, "or", "more"]
+        | ["above", low]
+        | ["above", low, "to", _]
+        | ["between", low, "and", _] => low.starts_with(|c: char| c.is_ascii_digit() || c == '-'),
+        ["its", "norm", "below", _] | ["no", "less" | "fewer", "than", _] => true,
+        _ => false,
+    };
+    is_range.then_some((start, end))
+}
+
+/// What a key means, without its default and range, and what each of its values does.
 pub(super) fn meaning_text(node: &Value, target: &Value) -> String {
     let own = node["description"].as_str().or(target["description"].as_str()).unwrap_or_default();
     let mut text = single_spaced(own);
     if let Some((start, end)) = bracketed_default(&text) {
         text.replace_range(start..end, "");
+    }
+    // The default is gone: the range, if any, now ends the sentence.
+    let range = range_place(&single_spaced(own));
+    if let Some((start, end)) = range {
+        text.replace_range(start - 2..end, "");
     }
     let values = target["oneOf"].as_array().map(Vec::as_slice).unwrap_or_default();
     if values.iter().all(|value| value["const"].is_string()) {
@@ -120,5 +169,9 @@ fn bracketed_default(text: &str) -> Option<(usize, usize)> {
 
 /// One line of text: line ends become spaces, and links into the code plain names.
 pub(super) fn single_spaced(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ").replace("[`", "`").replace("`]", "`")
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let mut parts = line.split("`](");
+    let first = parts.next().unwrap_or_default().to_string();
+    let without_target = |told: String, rest: &str| told + "`]" + rest.split_once(')').map_or(rest, |(_, rest)| rest);
+    parts.fold(first, without_target).replace("[`", "`").replace("`]", "`")
 }

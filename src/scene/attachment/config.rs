@@ -6,9 +6,8 @@ use super::imu_simulation::NodeImuConfig;
 use super::initial_error::NodeErrorConfig;
 use super::link::FlexConfig;
 use crate::scene::descent::SunConfig;
-use crate::scene::error::SceneError;
 use crate::scene::terrain::TerrainConfig;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -69,7 +68,7 @@ impl AttachmentConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::count("nodes_m", self.nodes_m.len(), 1, 1000)?;
         self.nodes_m.iter().try_for_each(|place_m| limits::finite("nodes_m", place_m))?;
         self.imu.validate().map_err(|e| e.under("imu"))?;
@@ -77,7 +76,7 @@ impl AttachmentConfig {
         limits::within("picture_interval_s", self.picture_interval_s, 1e-3, 1e6)?;
         if (self.picture_interval_s * 1e9).round() as i64 % self.imu.interval_ns() != 0 {
             let cure = format!("it must be a multiple of the interval of the {} Hz of imu.rate_hz", self.imu.rate_hz);
-            return Err(SceneError::out_of_range("picture_interval_s", self.picture_interval_s, cure));
+            return Err(OutOfRange::new("picture_interval_s", self.picture_interval_s, cure));
         }
         limits::count("landmarks", self.landmarks, 0, 100_000)?;
         self.flex.validate().map_err(|e| e.under("flex"))?;
@@ -85,7 +84,7 @@ impl AttachmentConfig {
         self.initial_error.validate().map_err(|e| e.under("initial_error"))?;
         self.sun.validate().map_err(|e| e.under("sun"))?;
         limits::within("terrain.sky_light", self.terrain.sky_light, 0.0, 0.0)?;
-        self.terrain.validate().map_err(|e| SceneError::from(e).under("terrain"))?;
+        self.terrain.validate().map_err(|e| e.under("terrain"))?;
         self.terrain.photometry.validate(self.terrain.albedo).map_err(|e| e.under("terrain"))
     }
 }

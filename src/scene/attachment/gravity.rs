@@ -1,7 +1,6 @@
 //! A turning small body: gravity and the apparent forces of a frame that turns with it.
 
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,7 +30,7 @@ impl BodyConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("gm_m3_s2", self.gm_m3_s2, 0.0, 1e15)?;
         limits::within("radius_m", self.radius_m, 1.0, 1e8)?;
         limits::within("spin_period_h", self.spin_period_h, 1e-3, 1e6)?;

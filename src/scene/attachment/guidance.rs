@@ -1,7 +1,6 @@
 //! Guidance of the formation's centre: an acceleration that is quadratic in the time to go, as in Apollo's descents.
 
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -39,7 +38,7 @@ impl ApproachConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("duration_s", self.duration_s, 1.0, 1e6)?;
         limits::finite("initial_position_m", &self.initial_position_m)?;
         limits::finite("initial_velocity_m_s", &self.initial_velocity_m_s)?;
@@ -50,7 +49,7 @@ impl ApproachConfig {
             let t_s = self.duration_s * f64::from(step) / 1000.0;
             if path.position_in_site_m(t_s).z <= 0.0 {
                 let cure = format!("the path meets the ground at t = {t_s:.1} s: change the boundary conditions");
-                return Err(SceneError::out_of_range("duration_s", self.duration_s, cure));
+                return Err(OutOfRange::new("duration_s", self.duration_s, cure));
             }
         }
         Ok(())

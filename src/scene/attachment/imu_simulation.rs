@@ -3,9 +3,8 @@
 use super::node_motion::NodeMotion;
 use crate::dataset::truth::LanderState;
 use crate::dataset::{ImuBiasNoise, ImuNoise, ImuSample};
-use crate::scene::error::SceneError;
 use crate::scene::ideal::ideal_samples;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use crate::stats::random_stream;
 use nalgebra::Vector3;
 use rand::Rng;
@@ -110,10 +109,10 @@ impl NodeImuConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         if self.rate_hz == 0 || 1_000_000_000 % self.rate_hz != 0 || self.rate_hz > 10_000 {
             let cure = "it must divide 1000000000 and be at most 10000, such as 10, 50, 100";
-            return Err(SceneError::out_of_range("rate_hz", self.rate_hz, cure));
+            return Err(OutOfRange::new("rate_hz", self.rate_hz, cure));
         }
         limits::positive("gyroscope_noise_density", self.gyroscope_noise_density)?;
         limits::positive("accelerometer_noise_density", self.accelerometer_noise_density)?;

@@ -3,8 +3,7 @@
 use crate::dataset::InitialState;
 use crate::dataset::truth::LanderState;
 use crate::geometry::Manifold;
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use crate::stats::random_stream;
 use nalgebra::{Isometry3, Translation3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
@@ -67,7 +66,7 @@ impl NodeErrorConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         let ranges = [
             ("shared_position_m", self.shared_position_m, 1e6),
             ("shared_velocity_m_s", self.shared_velocity_m_s, 1e4),

@@ -1,7 +1,6 @@
 //! How the links between the spacecraft bend and twist: small slow vibrations of each about its place.
 
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use crate::stats::random_stream;
 use nalgebra::SVector;
 use rand::{Rng, RngExt};
@@ -69,7 +68,7 @@ impl FlexConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("in_plane_m", self.in_plane_m, 0.0, 100.0)?;
         limits::within("out_of_plane_m", self.out_of_plane_m, 0.0, 100.0)?;
         limits::within("tilt_deg", self.tilt_deg, 0.0, 20.0)?;

@@ -3,7 +3,7 @@
 use super::formats::ShapeFile;
 use super::mesh::{AlbedoImage, Mesh, MeshAlbedo, PictureEdge};
 use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -51,8 +51,8 @@ impl MeshFile {
     ///
     /// # Errors
     /// Names the key if the scale is not said, said twice, or not a positive number.
-    pub fn scale_m(&self) -> Result<f64, SceneError> {
-        let fault = |value: &str, cure: &str| Err(SceneError::out_of_range("mesh.unit", value, cure));
+    pub fn scale_m(&self) -> Result<f64, OutOfRange> {
+        let fault = |value: &str, cure: &str| Err(OutOfRange::new("mesh.unit", value, cure));
         match (self.unit, self.metres_per_unit) {
             (Some(LengthUnit::M), None) => Ok(1.0),
             (Some(LengthUnit::Km), None) => Ok(1000.0),
@@ -87,7 +87,7 @@ impl MeshFile {
     ///
     /// # Errors
     /// Names the key, the radius and the unit to try.
-    pub(super) fn check_size(&self, mesh: &Mesh) -> Result<(), SceneError> {
+    pub(super) fn check_size(&self, mesh: &Mesh) -> Result<(), OutOfRange> {
         let (Some(unit), (least_m, most_m)) = (self.unit, PLAUSIBLE_RADIUS_M) else { return Ok(()) };
         let (center_m, radius_m) = mesh.bounding_sphere();
         if (least_m..=most_m).contains(&radius_m) && center_m.norm() <= most_m {
@@ -100,6 +100,6 @@ impl MeshFile {
             if unit == LengthUnit::M { 1 } else { 1000 },
         );
         let value = if unit == LengthUnit::M { "\"m\"" } else { "\"km\"" };
-        Err(SceneError::out_of_range("mesh.unit", value, cure))
+        Err(OutOfRange::new("mesh.unit", value, cure))
     }
 }

@@ -4,6 +4,7 @@ use super::mesh::{AlbedoMapFile, MassProperties, Mesh};
 use super::mesh_file::MeshFile;
 use super::procedural::ProceduralBody;
 use crate::scene::error::SceneError;
+use crate::settings::OutOfRange;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -45,7 +46,7 @@ impl BodySource {
                 let mesh = file.read(base_folder)?;
                 let path = base_folder.join(&file.path);
                 let found = mesh.mass_properties().map_err(|e| e.in_file(&path))?;
-                file.check_size(&mesh).map_err(|e| e.under("shape").in_file(&path))?;
+                file.check_size(&mesh).map_err(|e| SceneError::from(e.under("shape")).in_file(&path))?;
                 (mesh, found)
             }
         };
@@ -60,7 +61,7 @@ impl BodySource {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         match self {
             BodySource::Procedural(body) => body.validate().map_err(|e| e.under("procedural")),
             BodySource::Mesh(file) => file.scale_m().map(|_| ()),

@@ -1,9 +1,8 @@
 //! A small body: its shape and how its surface looks.
 
 use super::mesh::{AlbedoMapFile, Mesh};
-use crate::scene::error::SceneError;
 use crate::scene::photometry::Photometry;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -92,7 +91,7 @@ impl SurfaceConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("albedo", self.albedo, 0.001, 1.0)?;
         if let Some(map) = &self.albedo_map {
             map.validate().map_err(|e| e.under("albedo_map"))?;

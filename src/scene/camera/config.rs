@@ -1,8 +1,7 @@
 //! The camera of a scenario.
 
 use crate::geometry::{Camera, CameraError, Distortion};
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -89,7 +88,7 @@ impl CameraConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::count("width_px", self.width_px as usize, 16, 16_384)?;
         limits::count("height_px", self.height_px as usize, 16, 16_384)?;
         limits::within("fov_deg", self.fov_deg, 0.01, 170.0)?;
@@ -105,9 +104,9 @@ impl CameraConfig {
         self.camera().validate().map_err(|fault| self.unusable_lens(&fault))
     }
 
-    fn unusable_lens(&self, fault: &CameraError) -> SceneError {
+    fn unusable_lens(&self, fault: &CameraError) -> OutOfRange {
         let value = format!("{:?}", self.distortion.coefficients);
-        SceneError::out_of_range("distortion.coefficients", value, fault)
+        OutOfRange::new("distortion.coefficients", value, fault)
     }
 }
 
@@ -125,11 +124,11 @@ impl DistortionConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::finite("coefficients", &self.coefficients)?;
         if self.model == DistortionModel::None && self.coefficients != [0.0; 4] {
             let cure = "no model uses them: set distortion.model to radial-tangential or equidistant";
-            return Err(SceneError::out_of_range("coefficients", format!("{:?}", self.coefficients), cure));
+            return Err(OutOfRange::new("coefficients", format!("{:?}", self.coefficients), cure));
         }
         Ok(())
     }

@@ -3,9 +3,9 @@
 use super::config::CameraConfig;
 use crate::dataset::{CameraId, CameraSensor};
 use crate::geometry::{Camera, so3};
-use crate::scene::error::SceneError;
 use crate::scene::sensor::SensorConfig;
 use crate::scene::view::View;
+use crate::settings::OutOfRange;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use schemars::JsonSchema;
 
@@ -35,7 +35,7 @@ impl ImagerConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self, index: Option<usize>) -> Result<(), SceneError> {
+    pub fn validate(&self, index: Option<usize>) -> Result<(), OutOfRange> {
         let entry = index.map(|index| format!("cameras[{index}]"));
         self.camera.validate().map_err(|e| e.under(entry.as_deref().unwrap_or("camera")))?;
         let sensor = self.sensor.validate().map_err(|e| e.under("sensor"));

@@ -11,6 +11,7 @@ use crate::scene::camera::{Imager, SceneCamera};
 use crate::scene::error::SceneError;
 use crate::scene::terrain::Terrain;
 use crate::scene::view::View;
+use crate::settings::OutOfRange;
 use nalgebra::{Isometry3, Point3, Unit, Vector3};
 use std::path::Path;
 
@@ -125,7 +126,7 @@ fn designated(config: &DescentConfig, first_camera: &SceneCamera, seed: u64) -> 
 }
 
 /// Refuses views from the ground or below; `key` is the terrain's in the scenario file.
-pub fn check_above_ground(key: &str, views: &[View], terrain: &Terrain) -> Result<(), SceneError> {
+pub fn check_above_ground(key: &str, views: &[View], terrain: &Terrain) -> Result<(), OutOfRange> {
     let clearance_m = |pose: &Isometry3<f64>| {
         let p = pose.translation.vector;
         p.z - terrain.height_m(p.x, p.y)
@@ -138,7 +139,7 @@ pub fn check_above_ground(key: &str, views: &[View], terrain: &Terrain) -> Resul
                  the pictures higher",
                 t_ns as f64 * 1e-9
             );
-            Err(SceneError::out_of_range(key, "too high", cure))
+            Err(OutOfRange::new(key, "too high", cure))
         }
     }
 }

@@ -1,8 +1,7 @@
 //! How the camera is mounted on the lander.
 
 use crate::geometry::so3;
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -32,7 +31,7 @@ impl CameraMountConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("cant_deg", self.cant_deg, -90.0, 90.0)?;
         for component in self.camera_in_lander_m {
             limits::within("camera_in_lander_m", component, -10.0, 10.0)?;

@@ -7,9 +7,8 @@ use super::initial_error::InitialErrorConfig;
 use super::schedule::FrameSchedule;
 use super::sun::SunConfig;
 use crate::scene::elevation::{ElevationConfig, OrthoimageConfig};
-use crate::scene::error::SceneError;
 use crate::scene::terrain::TerrainConfig;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -63,7 +62,7 @@ impl DescentConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::count("landmarks", self.landmarks, 0, 100_000)?;
         self.guidance.validate().map_err(|e| e.under("guidance"))?;
         let path = PolynomialGuidance::new(&self.guidance);
@@ -72,7 +71,7 @@ impl DescentConfig {
         self.imu.validate().map_err(|e| e.under("imu"))?;
         self.initial_error.validate().map_err(|e| e.under("initial_error"))?;
         self.sun.validate().map_err(|e| e.under("sun"))?;
-        self.terrain.validate().map_err(|e| SceneError::from(e).under("terrain"))?;
+        self.terrain.validate().map_err(|e| e.under("terrain"))?;
         self.terrain.photometry.validate(self.terrain.albedo).map_err(|e| e.under("terrain"))?;
         self.elevation.as_ref().map_or(Ok(()), |e| e.validate()).map_err(|e| e.under("elevation"))?;
         self.orthoimage.as_ref().map_or(Ok(()), |o| o.validate()).map_err(|e| e.under("orthoimage"))

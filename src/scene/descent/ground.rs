@@ -4,6 +4,7 @@ use super::config::DescentConfig;
 use crate::scene::error::SceneError;
 use crate::scene::terrain::{GroundBase, Terrain};
 use crate::scene::view::View;
+use crate::settings::OutOfRange;
 use std::path::Path;
 
 /// The ground, on what the scenario names of measured files; relative paths start at `base_folder`.
@@ -17,7 +18,7 @@ pub(super) fn ground(config: &DescentConfig, seed: u64, base_folder: &Path) -> R
 }
 
 /// Beyond the border of an elevation model the ground is only its continuation: no picture is taken above that.
-pub(super) fn check_above_model(views: &[View], terrain: &Terrain) -> Result<(), SceneError> {
+pub(super) fn check_above_model(views: &[View], terrain: &Terrain) -> Result<(), OutOfRange> {
     let Some(elevation) = terrain.base().and_then(|base| base.elevation.as_ref()) else { return Ok(()) };
     let place_m = |view: &View| view.reference_from_camera.translation.vector;
     match views.iter().find(|view| !elevation.covers(&place_m(view))) {
@@ -29,7 +30,7 @@ pub(super) fn check_above_model(views: &[View], terrain: &Terrain) -> Result<(),
                  {:.2} s: move the site inward or use a larger file",
                 view.t_ns as f64 * 1e-9
             );
-            Err(SceneError::out_of_range("descent.elevation.site", elevation.summary().site, cure))
+            Err(OutOfRange::new("descent.elevation.site", elevation.summary().site, cure))
         }
     }
 }

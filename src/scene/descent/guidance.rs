@@ -1,7 +1,6 @@
 //! Polynomial descent guidance: the position is a polynomial of time through given boundary conditions.
 
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -61,7 +60,7 @@ impl GuidanceConfig {
     ///
     /// # Errors
     /// Names the key at fault.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("duration_s", self.duration_s, 1.0, 10_000.0)?;
         limits::finite("initial_position_m", &self.initial_position_m)?;
         limits::positive("initial_position_m", self.initial_position_m[2])?;
@@ -76,11 +75,11 @@ impl GuidanceConfig {
             let t_s = self.duration_s * f64::from(step) / 2000.0;
             if path.position_in_site_m(t_s).z <= 0.0 {
                 let cure = format!("the path meets the ground at t = {t_s:.1} s: change the boundary conditions");
-                return Err(SceneError::out_of_range("duration_s", self.duration_s, cure));
+                return Err(OutOfRange::new("duration_s", self.duration_s, cure));
             }
             if path.specific_force_in_site_m_s2(t_s).z <= 0.0 {
                 let cure = format!("the thrust points down at t = {t_s:.1} s: change the boundary conditions");
-                return Err(SceneError::out_of_range("duration_s", self.duration_s, cure));
+                return Err(OutOfRange::new("duration_s", self.duration_s, cure));
             }
         }
         Ok(())

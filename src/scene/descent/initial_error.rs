@@ -3,8 +3,7 @@
 use crate::dataset::truth::LanderState;
 use crate::dataset::{DesignatedPoint, InitialState};
 use crate::geometry::Manifold;
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use crate::stats::random_stream;
 use nalgebra::{Isometry3, Matrix2, Translation3, Vector2, Vector3};
 use rand::RngExt;
@@ -70,7 +69,7 @@ impl InitialErrorConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("position_m", self.position_m, 1e-6, 1e6)?;
         limits::within("velocity_m_s", self.velocity_m_s, 1e-9, 1e4)?;
         limits::within("attitude_deg", self.attitude_deg, 1e-9, 90.0)?;

@@ -2,7 +2,7 @@
 
 use super::guidance::PolynomialGuidance;
 use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -102,7 +102,7 @@ impl FrameSchedule {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self, path: &PolynomialGuidance) -> Result<(), SceneError> {
+    pub fn validate(&self, path: &PolynomialGuidance) -> Result<(), OutOfRange> {
         let highest_m = path.position_in_site_m(0.0).z;
         match *self {
             FrameSchedule::Uniform { rate_hz, start_s, end_s, end_height_m } => {

@@ -2,7 +2,7 @@
 
 use crate::scene::error::SceneError;
 use crate::scene::light::{EphemerisConfig, Sunlight, direction};
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -70,7 +70,7 @@ impl SunConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("elevation_deg", self.elevation_deg, 0.0, 90.0)?;
         limits::within("azimuth_deg", self.azimuth_deg, -360.0, 360.0)?;
         limits::within("distance_au", self.distance_au, 0.0, 1e4)?;

@@ -2,8 +2,7 @@
 
 use super::formats::RawLayout;
 use super::map_site::MapSite;
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -127,7 +126,7 @@ impl ElevationConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         self.file.validate().map_err(|e| e.under("file"))?;
         self.site.validate().map_err(|e| e.under("site"))
     }
@@ -144,7 +143,7 @@ impl OrthoimageConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         self.file.validate().map_err(|e| e.under("file"))?;
         self.site.map_or(Ok(()), |site| site.validate()).map_err(|e| e.under("site"))
     }
@@ -164,10 +163,10 @@ impl RasterFile {
         }
     }
 
-    fn validate(&self) -> Result<(), SceneError> {
+    fn validate(&self) -> Result<(), OutOfRange> {
         limits::finite("scale", &[self.scale])?;
         if self.scale == 0.0 {
-            return Err(SceneError::out_of_range("scale", self.scale, "it must not be 0"));
+            return Err(OutOfRange::new("scale", self.scale, "it must not be 0"));
         }
         limits::finite("offset", &[self.offset])?;
         limits::within("radius_m", self.radius_m.unwrap_or(1e6), 1e3, 1e9)?;

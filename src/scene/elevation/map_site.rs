@@ -1,7 +1,6 @@
 //! Where on a map the site lies.
 
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -62,7 +61,7 @@ pub enum MapSite {
 }
 
 impl MapSite {
-    pub(super) fn validate(&self) -> Result<(), SceneError> {
+    pub(super) fn validate(&self) -> Result<(), OutOfRange> {
         match *self {
             MapSite::Middle => Ok(()),
             MapSite::Degrees { latitude_deg, longitude_deg } => {

@@ -2,6 +2,7 @@
 
 use super::sunlight::ASTRONOMICAL_UNIT_M;
 use crate::scene::error::SceneError;
+use crate::settings::OutOfRange;
 use anise::prelude::{Almanac, Epoch, Frame};
 use nalgebra::{Unit, Vector3};
 use schemars::JsonSchema;
@@ -64,10 +65,10 @@ impl EphemerisConfig {
         Ok(SunInIcrf { direction_in_icrf, distance_au: 1e3 * distance_km / ASTRONOMICAL_UNIT_M })
     }
 
-    fn parsed_epoch(&self) -> Result<Epoch, SceneError> {
+    fn parsed_epoch(&self) -> Result<Epoch, OutOfRange> {
         Epoch::from_str(&self.epoch).map_err(|problem| {
             let cure = format!("write it as 2031-05-14T23:18:00 UTC or as ... TDB ({problem})");
-            SceneError::out_of_range("ephemeris.epoch", &self.epoch, cure)
+            OutOfRange::new("ephemeris.epoch", &self.epoch, cure)
         })
     }
 
@@ -75,9 +76,9 @@ impl EphemerisConfig {
     ///
     /// # Errors
     /// Names the first key at fault.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         if self.kernels.is_empty() {
-            return Err(SceneError::out_of_range("ephemeris.kernels", "empty", "name at least one SPK file"));
+            return Err(OutOfRange::new("ephemeris.kernels", "empty", "name at least one SPK file"));
         }
         self.parsed_epoch().map(|_| ())
     }

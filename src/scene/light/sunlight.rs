@@ -1,7 +1,6 @@
 //! Sunlight as it reaches a scene.
 
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use nalgebra::{Unit, Vector3};
 
 /// Nominal solar radius in m (IAU 2015 resolution B3).
@@ -32,8 +31,8 @@ pub fn sun_angular_radius_rad(distance_au: f64) -> f64 {
 }
 
 /// The direction of a vector of any length but 0.
-pub fn direction(key: &str, vector: &[f64; 3]) -> Result<Unit<Vector3<f64>>, SceneError> {
+pub fn direction(key: &str, vector: &[f64; 3]) -> Result<Unit<Vector3<f64>>, OutOfRange> {
     limits::finite(key, vector)?;
     Unit::try_new(Vector3::from(*vector), 1e-12)
-        .ok_or_else(|| SceneError::out_of_range(key, format!("{vector:?}"), "it must not be the zero vector"))
+        .ok_or_else(|| OutOfRange::new(key, format!("{vector:?}"), "it must not be the zero vector"))
 }

@@ -2,7 +2,7 @@
 
 use super::directions::PhotometricAngles;
 use super::model::Photometry;
-use crate::scene::error::SceneError;
+use crate::settings::OutOfRange;
 use std::f64::consts::PI;
 
 /// Rings of equal solid angle, and sectors of half a turn, in the integral over the hemisphere.
@@ -31,7 +31,7 @@ impl Photometry {
     ///
     /// # Errors
     /// Names the first key at fault: `photometry` with its parameters, or `albedo`.
-    pub fn validate(&self, albedo: f64) -> Result<(), SceneError> {
+    pub fn validate(&self, albedo: f64) -> Result<(), OutOfRange> {
         self.validate_parameters().map_err(|e| e.under("photometry"))?;
         for incidence_deg in CHECKED_INCIDENCES_DEG {
             let share = self.directional_hemispherical(albedo, incidence_deg.to_radians());
@@ -40,7 +40,7 @@ impl Photometry {
                     "with this photometry the surface would send back {share:.2} times the light that reaches it at an \
                      incidence of {incidence_deg}°: lower the albedo"
                 );
-                return Err(SceneError::out_of_range("albedo", albedo, cure));
+                return Err(OutOfRange::new("albedo", albedo, cure));
             }
         }
         Ok(())

@@ -2,8 +2,7 @@
 
 use super::chandrasekhar::chandrasekhar_h;
 use super::directions::{LEAST_COSINE, PhotometricAngles};
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_1_PI, PI};
@@ -88,7 +87,7 @@ impl HapkeParameters {
         Effective { cos_incidence: cos_incidence_e, cos_emission: cos_emission_e, shadowing }
     }
 
-    pub(super) fn validate(&self) -> Result<(), SceneError> {
+    pub(super) fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("asymmetry", self.asymmetry, -0.9, 0.9)?;
         limits::within("opposition_amplitude", self.opposition_amplitude, 0.0, 5.0)?;
         limits::within("opposition_width", self.opposition_width, 0.001, 1.0)?;

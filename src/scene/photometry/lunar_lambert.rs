@@ -1,7 +1,6 @@
 //! The lunar-Lambert law of McEwen (1991, 1996), with Lambert's and Lommel-Seeliger's laws as its ends.
 
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -42,7 +41,7 @@ impl LunarWeight {
         }
     }
 
-    pub(super) fn validate(&self) -> Result<(), SceneError> {
+    pub(super) fn validate(&self) -> Result<(), OutOfRange> {
         match self {
             LunarWeight::Constant(weight) => limits::within("weight", *weight, 0.0, 1.0),
             LunarWeight::Phase(coefficients) => limits::finite("weight", coefficients),

@@ -4,8 +4,7 @@ use super::directions::PhotometricAngles;
 use super::hapke::HapkeParameters;
 use super::lunar_lambert::LunarWeight;
 use super::{lunar_lambert, oren_nayar};
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -60,7 +59,7 @@ impl Photometry {
     }
 
     /// Checks every parameter's range.
-    pub(super) fn validate_parameters(&self) -> Result<(), SceneError> {
+    pub(super) fn validate_parameters(&self) -> Result<(), OutOfRange> {
         match self {
             Photometry::Lambert | Photometry::LommelSeeliger => Ok(()),
             Photometry::LunarLambert { weight } => weight.validate().map_err(|e| e.under("lunar-lambert")),

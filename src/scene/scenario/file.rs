@@ -9,11 +9,12 @@ use crate::scene::camera::{CameraConfig, DistortionConfig, ImagerConfig};
 use crate::scene::descent::DescentConfig;
 use crate::scene::error::SceneError;
 use crate::scene::sensor::SensorConfig;
+use crate::scene::survey::SurveyConfig;
 use crate::scene::tumbling::TumblingConfig;
+use crate::settings::{Layers, SettingsError, SettingsFile};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use toml::{Table, Value};
 
 const DESCENT_FOV_DEG: f64 = 90.0;
 const BODY_FOV_DEG: f64 = 30.0;
@@ -42,6 +43,9 @@ pub(super) struct ScenarioFile {
     /// How finely the pictures are drawn.
     #[serde(default)]
     render: RenderConfig,
+    /// The squares of a map of the landing area (default: see its table).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    survey: Option<SurveyConfig>,
     /// A powered descent to a landing site.
     #[serde(skip_serializing_if = "Option::is_none")]
     descent: Option<DescentConfig>,
@@ -114,30 +118,17 @@ fn first_seed() -> u64 {
     1
 }
 
-/// What a TOML error says, in one line, with its line and key.
-fn one_line(error: &toml::de::Error, text: &str) -> String {
-    let whole = error.to_string();
-    let key = whole.lines().rev().find(|line| line.starts_with("in `")).map(|line| format!(" ({line})"));
-    let line = error.span().and_then(|span| text.get(..span.start)).map(|before| before.lines().count().max(1));
-    let starts_line = error.span().is_some_and(|span| text[..span.start.min(text.len())].ends_with('\n'));
-    let place = line.map(|n| format!("line {}: ", n + usize::from(starts_line))).unwrap_or_default();
-    format!("{place}{}{}", error.message().replace('\n', " "), key.unwrap_or_default())
-}
-
 impl ScenarioFile {
-    /// Reads the text alone first, so that its own faults are told with their line, then applies the overrides.
-    pub fn parse(text: &str, path: &Path, overrides: &[String]) -> Result<Self, SceneError> {
-        let unusable = |problem: String| SceneError::Unusable { path: path.into(), problem };
-        let file: ScenarioFile = toml::from_str(text).map_err(|e| unusable(one_line(&e, text)))?;
-        if overrides.is_empty() {
-            return Ok(file);
+    /// Reads the text alone first, so that its own faults are told with their line, then lays the layers over it.
+    pub fn parse(text: &str, path: &Path, layers: &Layers) -> Result<Self, SceneError> {
+        let file = SettingsFile::parse(text, path)?;
+        file.check_keys(&ScenarioFile::schema())?;
+        let alone = file.deserialized()?;
+        if *layers == Layers::default() {
+            return Ok(alone);
         }
-        let mut table: Table = toml::from_str(text).map_err(|e| unusable(one_line(&e, text)))?;
-        for line in overrides {
-            set(&mut table, line).map_err(unusable)?;
-        }
-        let with = overrides.join(" ");
-        table.try_into().map_err(|e| unusable(format!("with {with}: {}", one_line(&e, ""))))
+        let unusable = |error: SettingsError| SceneError::Unusable { path: path.into(), problem: error.to_string() };
+        layers.over(file.table).map_err(unusable)
     }
 
     /// Fills in what depends on the mission.
@@ -168,6 +159,7 @@ impl ScenarioFile {
             imagers: imagers.map_err(unusable)?,
             truth: self.truth,
             render: self.render,
+            survey: self.survey,
             mission,
         })
     }
@@ -204,45 +196,10 @@ impl From<&Scenario> for ScenarioFile {
             cameras,
             truth: scenario.truth,
             render: scenario.render,
+            survey: scenario.survey.clone(),
             descent,
             tumbling,
             attachment,
         }
     }
-}
-
-/// Puts `table.key=value` into a table, or `tables.0.key=value` into an entry of a list of tables; missing tables on the
-/// way are made.
-fn set(table: &mut Table, line: &str) -> Result<(), String> {
-    let (path, text) = line.split_once('=').ok_or_else(|| format!("--set {line}: write it as table.key=value"))?;
-    let mut keys: Vec<&str> = path.split('.').map(str::trim).collect();
-    let last = keys.pop().filter(|key| !key.is_empty()).ok_or_else(|| format!("--set {line}: the key is empty"))?;
-    let no_table = |key: &str| format!("--set {line}: {key} is a value, not a table");
-    let mut place = table;
-    let mut keys = keys.into_iter();
-    while let Some(key) = keys.next() {
-        let next = place.entry(key).or_insert_with(|| Value::Table(Table::new()));
-        place = match next {
-            Value::Table(table) => table,
-            Value::Array(entries) => {
-                let index = keys.next().unwrap_or(last);
-                let entry = index.parse::<usize>().ok().and_then(|index| entries.get_mut(index));
-                let entry =
-                    entry.ok_or_else(|| format!("--set {line}: {key} has no entry {index} (counted from 0)"))?;
-                entry.as_table_mut().ok_or_else(|| no_table(index))?
-            }
-            _ => return Err(no_table(key)),
-        };
-    }
-    place.insert(last.into(), value(text.trim()));
-    Ok(())
-}
-
-/// A value in TOML's notation; anything else is text.
-fn value(text: &str) -> Value {
-    let parsed: Option<Table> = toml::from_str(&format!("value = {text}")).ok();
-    parsed
-        .filter(|table| table.len() == 1)
-        .and_then(|mut table| table.remove("value"))
-        .unwrap_or_else(|| Value::String(text.into()))
 }

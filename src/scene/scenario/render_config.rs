@@ -1,7 +1,6 @@
 //! How finely pictures are drawn.
 
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -32,7 +31,7 @@ impl RenderConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::count("supersampling", self.supersampling as usize, 1, 8)?;
         limits::count("shadow_map_px", self.shadow_map_px as usize, 64, 8192)?;
         limits::within("vertex_spacing_px", self.vertex_spacing_px, 0.25, 16.0)

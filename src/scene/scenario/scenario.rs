@@ -8,8 +8,9 @@ use crate::scene::attachment::AttachmentScene;
 use crate::scene::camera::{Imager, ImagerConfig};
 use crate::scene::descent::DescentScene;
 use crate::scene::error::SceneError;
+use crate::scene::survey::SurveyConfig;
 use crate::scene::tumbling::TumblingScene;
-use crate::settings::limits;
+use crate::settings::{Layers, OutOfRange, limits};
 use std::path::Path;
 
 /// A scenario.
@@ -23,6 +24,8 @@ pub struct Scenario {
     pub truth: TruthConfig,
     /// How finely the pictures are drawn: the table `[render]`.
     pub render: RenderConfig,
+    /// The squares that a map of the landing area shows: the table `[survey]`; `None` for the default ones.
+    pub survey: Option<SurveyConfig>,
     /// What happens.
     pub mission: Mission,
 }
@@ -34,12 +37,20 @@ impl Scenario {
     /// # Errors
     /// Names the file and the key of what is missing, unknown, of the wrong type or out of range.
     pub fn read(path: &Path, overrides: &[String]) -> Result<Scenario, SceneError> {
+        Scenario::read_under(path, &Layers::from(overrides))
+    }
+
+    /// Reads a scenario file and lays a file of settings and overrides over it.
+    ///
+    /// # Errors
+    /// As [`Scenario::read`].
+    pub fn read_under(path: &Path, layers: &Layers) -> Result<Scenario, SceneError> {
         let text = std::fs::read_to_string(path).map_err(|source| SceneError::Io {
             action: "read the scenario",
             path: path.into(),
             source,
         })?;
-        Scenario::parse(&text, path, overrides)
+        Scenario::parse_under(&text, path, layers)
     }
 
     /// Reads a scenario from text; `path` is what errors name.
@@ -47,8 +58,12 @@ impl Scenario {
     /// # Errors
     /// As [`Scenario::read`].
     pub fn parse(text: &str, path: &Path, overrides: &[String]) -> Result<Scenario, SceneError> {
-        let scenario = ScenarioFile::parse(text, path, overrides)?.resolve(path)?;
-        scenario.validate().map_err(|e| e.in_file(path))?;
+        Scenario::parse_under(text, path, &Layers::from(overrides))
+    }
+
+    fn parse_under(text: &str, path: &Path, layers: &Layers) -> Result<Scenario, SceneError> {
+        let scenario = ScenarioFile::parse(text, path, layers)?.resolve(path)?;
+        scenario.validate().map_err(|e| SceneError::from(e).in_file(path))?;
         Ok(scenario)
     }
 
@@ -66,14 +81,13 @@ impl Scenario {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
-        if i64::try_from(self.seed).is_err() {
-            return Err(SceneError::out_of_range("seed", self.seed, "it must be below 9223372036854775808"));
-        }
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        limits::seed("seed", self.seed)?;
         self.render.validate().map_err(|e| e.under("render"))?;
         for (index, imager) in self.imagers.iter().enumerate() {
             imager.validate((self.imagers.len() > 1).then_some(index))?;
         }
+        self.survey.as_ref().map_or(Ok(()), SurveyConfig::validate).map_err(|e| e.under("survey"))?;
         match &self.mission {
             Mission::Descent(descent) => descent.validate().map_err(|e| e.under("descent")),
             Mission::Attachment(attachment) => attachment.validate().map_err(|e| e.under("attachment")),

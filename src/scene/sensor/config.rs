@@ -4,8 +4,7 @@ use super::exposure::Exposure;
 use super::fixed_pattern::FixedPatternConfig;
 use super::shutter::ShutterConfig;
 use super::vignetting::VignettingConfig;
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -86,7 +85,7 @@ impl SensorConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("full_well_electrons", self.full_well_electrons, 1.0, 1e12)?;
         limits::within("read_noise_electrons", self.read_noise_electrons, 0.0, 1e6)?;
         limits::within("dark_current_electrons_s", self.dark_current_electrons_s, 0.0, 1e9)?;
@@ -105,12 +104,12 @@ impl SensorConfig {
     }
 
     /// What collects with time needs a time.
-    fn check_exposure_time(&self) -> Result<(), SceneError> {
+    fn check_exposure_time(&self) -> Result<(), OutOfRange> {
         let timed = matches!(self.exposure, Exposure::Timed { .. });
         let dark = self.dark_current_electrons_s > 0.0 || self.fixed_pattern.hot_pixel_fraction > 0.0;
         if (timed || dark) && self.shutter.exposure_time_s == 0.0 {
             let cure = "dark current, hot pixels and exposure.timed collect electrons during it: give it in seconds";
-            return Err(SceneError::out_of_range("shutter.exposure_time_s", 0.0, cure));
+            return Err(OutOfRange::new("shutter.exposure_time_s", 0.0, cure));
         }
         Ok(())
     }

@@ -1,7 +1,6 @@
 //! How much light is collected.
 
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -41,7 +40,7 @@ impl Exposure {
         }
     }
 
-    pub(super) fn validate(&self) -> Result<(), SceneError> {
+    pub(super) fn validate(&self) -> Result<(), OutOfRange> {
         match *self {
             Exposure::Auto => Ok(()),
             Exposure::Percentile { percent, full_well_share } => {

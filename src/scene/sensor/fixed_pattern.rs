@@ -1,7 +1,6 @@
 //! Differences between pixels that are the same in every picture of a camera.
 
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +20,7 @@ pub struct FixedPatternConfig {
 }
 
 impl FixedPatternConfig {
-    pub(super) fn validate(&self) -> Result<(), SceneError> {
+    pub(super) fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("response_sigma", self.response_sigma, 0.0, 0.5)?;
         limits::within("offset_sigma_electrons", self.offset_sigma_electrons, 0.0, 1e6)?;
         limits::within("hot_pixel_fraction", self.hot_pixel_fraction, 0.0, 1.0)?;

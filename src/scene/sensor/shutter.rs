@@ -1,7 +1,6 @@
 //! When light is collected.
 
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +26,7 @@ impl Default for ShutterConfig {
 }
 
 impl ShutterConfig {
-    pub(super) fn validate(&self) -> Result<(), SceneError> {
+    pub(super) fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("exposure_time_s", self.exposure_time_s, 0.0, 3600.0)?;
         limits::within("row_time_s", self.row_time_s, 0.0, 1.0)?;
         limits::count("sub_pictures_at_most", self.sub_pictures_at_most as usize, 1, 1024)

@@ -1,7 +1,6 @@
 //! Fall of brightness toward the picture's edge.
 
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -27,12 +26,12 @@ impl VignettingConfig {
         1.0 + r_squared * (a1 + r_squared * (a2 + r_squared * a3))
     }
 
-    pub(super) fn validate(&self) -> Result<(), SceneError> {
+    pub(super) fn validate(&self) -> Result<(), OutOfRange> {
         limits::finite("radial", &self.radial)?;
         let least = (0..=100).map(|i| self.radial_factor((0.01 * f64::from(i)).powi(2))).fold(1.0, f64::min);
         if least < 0.0 {
             let cure = format!("the brightness falls to {least:.3} within the picture: it must not fall below 0");
-            return Err(SceneError::out_of_range("radial", format!("{:?}", self.radial), cure));
+            return Err(OutOfRange::new("radial", format!("{:?}", self.radial), cure));
         }
         Ok(())
     }

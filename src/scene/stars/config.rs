@@ -3,7 +3,7 @@
 use super::catalogue::Star;
 use super::sky::Sky;
 use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use nalgebra::UnitQuaternion;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -59,7 +59,7 @@ impl SkyConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("faintest_magnitude", self.faintest_magnitude, -30.0, 30.0)?;
         self.zero_point_if_px.map_or(Ok(()), |light| limits::positive("zero_point_if_px", light))
     }

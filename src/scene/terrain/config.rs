@@ -1,21 +1,9 @@
 //! Parameters of procedural terrain.
 
 use crate::scene::photometry::Photometry;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
-
-/// A parameter of the terrain outside its range.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error("terrain.{key} is {value}: it must be {range}")]
-pub struct TerrainConfigError {
-    /// Key as in the scenario file.
-    pub key: &'static str,
-    /// The value found.
-    pub value: f64,
-    /// What it may be.
-    pub range: &'static str,
-}
 
 /// Procedural terrain around the landing point.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -147,50 +135,44 @@ impl TerrainConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), TerrainConfigError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         let ranges = [
-            ("largest_wavelength_m", self.largest_wavelength_m, 1.0, 1e5, "1 to 100000 m"),
-            ("smallest_wavelength_m", self.smallest_wavelength_m, 1e-3, 1e3, "0.001 to 1000 m"),
-            ("hurst", self.hurst, 0.0, 1.0, "0 to 1"),
-            ("rms_slope", self.rms_slope, 0.0, 1.0, "0 to 1"),
-            ("slope_scale_m", self.slope_scale_m, 1e-3, 1e5, "0.001 to 100000 m"),
-            ("albedo", self.albedo, 0.0, 1.0, "0 to 1"),
-            ("sky_light", self.sky_light, 0.0, 1.0, "0 to 1"),
-            ("albedo_contrast", self.albedo_contrast, 0.0, 0.3, "0 to 0.3"),
-            ("crater_density", self.crater_density, 0.0, 1.0, "0 to 1"),
-            ("smallest_crater_m", self.smallest_crater_m, 0.01, 1e4, "0.01 to 10000 m"),
-            ("largest_crater_m", self.largest_crater_m, 0.01, 1e4, "0.01 to 10000 m"),
-            ("crater_exponent", self.crater_exponent, 0.5, 5.0, "0.5 to 5"),
-            ("crater_depth_ratio", self.crater_depth_ratio, 0.0, 0.4, "0 to 0.4"),
-            ("rock_abundance", self.rock_abundance, 0.0, 0.4, "0 to 0.4"),
-            ("smallest_rock_m", self.smallest_rock_m, 0.01, 100.0, "0.01 to 100 m"),
-            ("largest_rock_m", self.largest_rock_m, 0.01, 100.0, "0.01 to 100 m"),
-            ("hummock_density", self.hummock_density, 0.0, 1.0, "0 to 1"),
-            ("smallest_hummock_m", self.smallest_hummock_m, 0.1, 1e4, "0.1 to 10000 m"),
-            ("largest_hummock_m", self.largest_hummock_m, 0.1, 1e4, "0.1 to 10000 m"),
-            ("hummock_height_ratio", self.hummock_height_ratio, 0.0, 0.3, "0 to 0.3"),
-            ("ripple_cover", self.ripple_cover, 0.0, 1.0, "0 to 1"),
-            ("largest_ripple_m", self.largest_ripple_m, 0.05, 1e3, "0.05 to 1000 m"),
-            ("smallest_ripple_m", self.smallest_ripple_m, 0.05, 1e3, "0.05 to 1000 m"),
-            ("ripple_height_ratio", self.ripple_height_ratio, 0.0, 0.15, "0 to 0.15"),
-            ("unit_contrast", self.unit_contrast, 0.0, 1.0, "0 to 1"),
-            ("largest_unit_m", self.largest_unit_m, 1.0, 1e5, "1 to 100000 m"),
-            ("smallest_unit_m", self.smallest_unit_m, 1.0, 1e5, "1 to 100000 m"),
-            ("scarp_ratio", self.scarp_ratio, 0.0, 0.05, "0 to 0.05"),
-            ("site_slope", self.site_slope, 0.0, 1.0, "0 to 1"),
+            ("largest_wavelength_m", self.largest_wavelength_m, 1.0, 1e5),
+            ("smallest_wavelength_m", self.smallest_wavelength_m, 1e-3, 1e3),
+            ("hurst", self.hurst, 0.0, 1.0),
+            ("rms_slope", self.rms_slope, 0.0, 1.0),
+            ("slope_scale_m", self.slope_scale_m, 1e-3, 1e5),
+            ("albedo", self.albedo, 0.0, 1.0),
+            ("sky_light", self.sky_light, 0.0, 1.0),
+            ("albedo_contrast", self.albedo_contrast, 0.0, 0.3),
+            ("crater_density", self.crater_density, 0.0, 1.0),
+            ("smallest_crater_m", self.smallest_crater_m, 0.01, 1e4),
+            ("largest_crater_m", self.largest_crater_m, 0.01, 1e4),
+            ("crater_exponent", self.crater_exponent, 0.5, 5.0),
+            ("crater_depth_ratio", self.crater_depth_ratio, 0.0, 0.4),
+            ("rock_abundance", self.rock_abundance, 0.0, 0.4),
+            ("smallest_rock_m", self.smallest_rock_m, 0.01, 100.0),
+            ("largest_rock_m", self.largest_rock_m, 0.01, 100.0),
+            ("hummock_density", self.hummock_density, 0.0, 1.0),
+            ("smallest_hummock_m", self.smallest_hummock_m, 0.1, 1e4),
+            ("largest_hummock_m", self.largest_hummock_m, 0.1, 1e4),
+            ("hummock_height_ratio", self.hummock_height_ratio, 0.0, 0.3),
+            ("ripple_cover", self.ripple_cover, 0.0, 1.0),
+            ("largest_ripple_m", self.largest_ripple_m, 0.05, 1e3),
+            ("smallest_ripple_m", self.smallest_ripple_m, 0.05, 1e3),
+            ("ripple_height_ratio", self.ripple_height_ratio, 0.0, 0.15),
+            ("unit_contrast", self.unit_contrast, 0.0, 1.0),
+            ("largest_unit_m", self.largest_unit_m, 1.0, 1e5),
+            ("smallest_unit_m", self.smallest_unit_m, 1.0, 1e5),
+            ("scarp_ratio", self.scarp_ratio, 0.0, 0.05),
+            ("site_slope", self.site_slope, 0.0, 1.0),
         ];
-        for (key, value, low, high, range) in ranges {
-            if !(low..=high).contains(&value) {
-                return Err(TerrainConfigError { key, value, range });
-            }
+        for (key, value, low, high) in ranges {
+            limits::within(key, value, low, high)?;
         }
         if self.smallest_wavelength_m > self.largest_wavelength_m {
-            let value = self.smallest_wavelength_m;
-            return Err(TerrainConfigError {
-                key: "smallest_wavelength_m",
-                value,
-                range: "below largest_wavelength_m",
-            });
+            let cure = "it must be below largest_wavelength_m";
+            return Err(OutOfRange::new("smallest_wavelength_m", self.smallest_wavelength_m, cure));
         }
         Ok(())
     }

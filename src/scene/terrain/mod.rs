@@ -10,7 +10,7 @@ mod relief;
 mod rocks;
 mod terrain;
 
-pub use config::{TerrainConfig, TerrainConfigError};
+pub use config::TerrainConfig;
 pub use features::{
     CraterClass, Feature, HummockClass, RippleClass, Rock, RockClass, Scatter, UnitClass, rock_density_1_m2,
 };

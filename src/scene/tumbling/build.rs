@@ -11,6 +11,7 @@ use crate::scene::camera::{Imager, SceneCamera};
 use crate::scene::error::SceneError;
 use crate::scene::stars::Sky;
 use crate::scene::view::View;
+use crate::settings::OutOfRange;
 use nalgebra::{Isometry3, Translation3, Unit, Vector2, Vector3};
 use std::path::Path;
 
@@ -138,22 +139,22 @@ fn states(config: &TumblingConfig, body: &RigidBody) -> Vec<AsteroidState> {
 }
 
 /// Checks that the camera is outside the body in the first picture; drawing checks the others.
-fn check_first_view(config: &TumblingConfig, mesh: &Mesh, view: &View) -> Result<(), SceneError> {
+fn check_first_view(config: &TumblingConfig, mesh: &Mesh, view: &View) -> Result<(), OutOfRange> {
     let camera_m = view.reference_from_camera.translation.vector;
     if camera_m.norm() > mesh.radius_m() || mesh.surrounds(&camera_m) == 0 {
         return Ok(());
     }
     let (key, value) = config.distance_key();
     let cure = format!("the camera would be inside the body, whose radius is {:.3} m: move it out", mesh.radius_m());
-    Err(SceneError::out_of_range(&format!("tumbling.{key}"), value, cure))
+    Err(OutOfRange::new(&format!("tumbling.{key}"), value, cure))
 }
 
 /// Checks that the camera does not fly through the body.
-fn check_approach(config: &TumblingConfig, distance_m: f64, states: &[AsteroidState]) -> Result<(), SceneError> {
+fn check_approach(config: &TumblingConfig, distance_m: f64, states: &[AsteroidState]) -> Result<(), OutOfRange> {
     let last_s = states.last().map_or(0.0, |state| state.t_ns as f64 * 1e-9);
     if distance_m > config.approach_m_s * last_s {
         return Ok(());
     }
     let cure = "the camera would pass the body's centre: approach more slowly or from farther away";
-    Err(SceneError::out_of_range("tumbling.approach_m_s", config.approach_m_s, cure))
+    Err(OutOfRange::new("tumbling.approach_m_s", config.approach_m_s, cure))
 }

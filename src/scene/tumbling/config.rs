@@ -3,9 +3,8 @@
 use super::inertia::InertiaSource;
 use super::phase::PhaseConfig;
 use crate::scene::body::{BodySource, SurfaceConfig};
-use crate::scene::error::SceneError;
 use crate::scene::stars::SkyConfig;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -95,7 +94,7 @@ impl TumblingConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::count("frames", self.frames, 1, 100_000)?;
         limits::within("interval_s", self.interval_s, 1e-6, 1e6)?;
         limits::finite("rate_deg_s", &self.rate_deg_s)?;
@@ -115,9 +114,9 @@ impl TumblingConfig {
         self.shape.validate().map_err(|e| e.under("shape"))
     }
 
-    fn validate_distance(&self) -> Result<(), SceneError> {
+    fn validate_distance(&self) -> Result<(), OutOfRange> {
         if let (Some(_), Some(range_m)) = (self.distance_m, self.range_m) {
-            return Err(SceneError::out_of_range("range_m", range_m, "distance_m is given too: drop one of them"));
+            return Err(OutOfRange::new("range_m", range_m, "distance_m is given too: drop one of them"));
         }
         let (key, value) = self.distance_key();
         if key != "fill_fraction" {

@@ -2,7 +2,7 @@
 
 use super::rigid_body::RigidBody;
 use crate::scene::body::MassProperties;
-use crate::scene::error::SceneError;
+use crate::settings::OutOfRange;
 use nalgebra::Matrix3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -29,7 +29,7 @@ impl InertiaSource {
     ///
     /// # Errors
     /// Names the key `inertia` if no body can have the tensor.
-    pub fn rigid_body(&self, shape: &MassProperties) -> Result<RigidBody, SceneError> {
+    pub fn rigid_body(&self, shape: &MassProperties) -> Result<RigidBody, OutOfRange> {
         let tensor = match self {
             InertiaSource::Tensor(rows) => Matrix3::from_fn(|row, column| rows[row][column]),
             InertiaSource::FromShape => shape.inertia_m5,
@@ -42,7 +42,7 @@ impl InertiaSource {
     ///
     /// # Errors
     /// Names the key `inertia`.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         match self {
             InertiaSource::Tensor(rows) => RigidBody::new(&Matrix3::from_fn(|r, c| rows[r][c])).map(|_| ()),
             InertiaSource::FromShape => Ok(()),

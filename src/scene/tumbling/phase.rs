@@ -2,7 +2,7 @@
 
 use crate::scene::error::SceneError;
 use crate::scene::light::{EphemerisConfig, Sunlight, direction};
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -78,7 +78,7 @@ impl PhaseConfig {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("phase_deg", self.phase_deg, 0.0, 180.0)?;
         limits::within("azimuth_deg", self.azimuth_deg, -360.0, 360.0)?;
         limits::within("distance_au", self.distance_au, 0.0, 1e4)?;

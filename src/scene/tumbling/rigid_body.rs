@@ -1,6 +1,6 @@
 //! Torque-free motion of a rigid body.
 
-use crate::scene::error::SceneError;
+use crate::settings::OutOfRange;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 /// Turn of one integration step, rad: with the classical Runge–Kutta method it keeps energy and angular momentum to
@@ -29,8 +29,8 @@ impl RigidBody {
     /// # Errors
     /// Names the key `inertia` if the tensor is not symmetric, not positive definite, or breaks the triangle inequality
     /// of principal moments, so that no body has it.
-    pub fn new(inertia: &Matrix3<f64>) -> Result<Self, SceneError> {
-        let fault = |cure: &str| SceneError::out_of_range("inertia", format!("{:?}", rows(inertia)), cure);
+    pub fn new(inertia: &Matrix3<f64>) -> Result<Self, OutOfRange> {
+        let fault = |cure: &str| OutOfRange::new("inertia", format!("{:?}", rows(inertia)), cure);
         if !inertia.iter().all(|v| v.is_finite()) {
             return Err(fault("every element must be a finite number"));
         }

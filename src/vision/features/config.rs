@@ -1,30 +1,33 @@
 //! Settings of the detector.
 
+use crate::settings::{OutOfRange, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Harris detection.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DetectorConfig {
-    /// Most features a picture (default 1000).
+    /// Most features a picture, 1 or more (default 1000).
     pub max_features: usize,
-    /// Gaussian smoothing before detection, 1σ in px (default 1.0).
+    /// Gaussian smoothing before detection, 1σ in px, above 0 (default 1.0).
     pub smoothing_sigma_px: f64,
-    /// Gaussian smoothing of the response, 1σ in px (default 0.8).
+    /// Gaussian smoothing of the response, 1σ in px, above 0 (default 0.8).
     pub response_sigma_px: f64,
-    /// Side of the window that gathers the structure tensor, px (default 5).
+    /// Side of the window that gathers the structure tensor, px, an odd number, 3 or more (default 5).
     pub block_px: u32,
-    /// Harris' trace factor k (default 0.04).
+    /// Harris' trace factor k, above 0 (default 0.04).
     pub harris_k: f64,
-    /// Least response as a fraction of the strongest (default 1e-5); noise is refused by `max_sigma_px`.
+    /// Least response as a fraction of the strongest, above 0 (default 1e-5); noise is refused by `max_sigma_px`.
     pub min_response_ratio: f64,
-    /// Least distance between features, px (default 5).
+    /// Least distance between features, px, above 0 (default 5).
     pub min_distance_px: f64,
-    /// Features closer to the picture's edge are dropped, px (default 16).
+    /// Features closer to the picture's edge are dropped, px, 4 or more (default 16).
     pub border_px: u32,
-    /// Peaks of the response with a greater width are too blunt to be found again at the same place, px (default 2.2).
+    /// Peaks of the response with a greater width are too blunt to be found again at the same place, px,
+    /// above 0 (default 2.2).
     pub max_peak_width_px: f64,
-    /// Features with a greater predicted 1σ are dropped, px (default 0.4).
+    /// Features with a greater predicted 1σ are dropped, px, above 0 (default 0.4).
     pub max_sigma_px: f64,
 }
 
@@ -42,5 +45,27 @@ impl Default for DetectorConfig {
             max_peak_width_px: 2.2,
             max_sigma_px: 0.4,
         }
+    }
+}
+
+impl DetectorConfig {
+    /// Checks every range.
+    ///
+    /// # Errors
+    /// Names the key.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        limits::count_from("max_features", self.max_features, 1)?;
+        limits::positive("smoothing_sigma_px", self.smoothing_sigma_px)?;
+        limits::positive("response_sigma_px", self.response_sigma_px)?;
+        limits::count_from("block_px", self.block_px as usize, 3)?;
+        if self.block_px.is_multiple_of(2) {
+            return Err(OutOfRange::new("block_px", self.block_px, "it must be odd"));
+        }
+        limits::positive("harris_k", self.harris_k)?;
+        limits::positive("min_response_ratio", self.min_response_ratio)?;
+        limits::positive("min_distance_px", self.min_distance_px)?;
+        limits::count_from("border_px", self.border_px as usize, 4)?;
+        limits::positive("max_peak_width_px", self.max_peak_width_px)?;
+        limits::positive("max_sigma_px", self.max_sigma_px)
     }
 }

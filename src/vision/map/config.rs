@@ -1,37 +1,40 @@
 //! Parameters of the matching with a map.
 
-use crate::vision::error::VisionError;
+use crate::settings::{OutOfRange, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Matching of pictures with a map.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MapMatchConfig {
-    /// Pictures are halved until neither side is longer, px (default 512).
+    /// Pictures are halved until neither side is longer, px, 64 or more (default 512).
     pub max_side_px: u32,
-    /// Pictures are halved, too, until a pixel on the ground is as large as this share of the map's finest pixel there
-    /// (default 0.6): the map does not know what is smaller.
+    /// Pictures are halved, too, until a pixel on the ground is as large as this share of the map's finest pixel there,
+    /// above 0 (default 0.6): the map does not know what is smaller.
     pub least_pixel_ratio: f64,
-    /// Corners of the map that are looked for in a picture (default 100).
+    /// Corners of the map that are looked for in a picture, no fewer than `fewest_sightings` (default 100).
     pub candidates: usize,
-    /// Most sightings given, spread over the picture (default 30): errors of near ones are alike.
+    /// Most sightings given, spread over the picture, no fewer than `fewest_sightings` (default 30): errors of near ones are
+    /// alike.
     pub most_sightings: usize,
-    /// Fewest sightings that agree with one pose; below, none is given (default 8).
+    /// Fewest sightings that agree with one pose; below, none is given, 4 or more (default 8).
     pub fewest_sightings: usize,
-    /// Least share of the corners found that have to agree (default 0.5).
+    /// Least share of the corners found that have to agree, 0 to 1 (default 0.5).
     pub least_agreeing: f64,
     /// Greatest predicted 1σ of a pixel, in px of the halved picture, with which patches are looked for at once; beyond,
-    /// the picture is matched by descriptors first (default 3).
+    /// the picture is matched by descriptors first, above 0 (default 3).
     pub track_sigma_px: f64,
     /// 1σ of each coordinate, in px of the halved picture, of what a map and a picture of other distance show differently;
-    /// it comes on top of what the patches say (default 0.1).
+    /// it comes on top of what the patches say, 0 or more (default 0.1).
     pub looks_sigma_px: f64,
-    /// 1σ of each coordinate of what all points of a picture have in common, in px of the halved picture (default 0.05).
+    /// 1σ of each coordinate of what all points of a picture have in common, in px of the halved picture, 0 or more
+    /// (default 0.05).
     pub common_sigma_px: f64,
     /// How far the corners of a picture stand out above the map's heights on average, in footprints of a pixel of the
-    /// halved picture (default 0.1, fitted to rendered ground: crests catch the eye, hollows do not).
+    /// halved picture, 0 or more (default 0.1, fitted to rendered ground: crests catch the eye, hollows do not).
     pub standing_out: f64,
-    /// 1σ of that, common to all corners of a picture (default 0.1).
+    /// 1σ of that, common to all corners of a picture, 0 or more (default 0.1).
     pub standing_out_sigma: f64,
 }
 
@@ -54,53 +57,24 @@ impl Default for MapMatchConfig {
 }
 
 impl MapMatchConfig {
-    /// Checks ranges.
+    /// Checks every range.
     ///
     /// # Errors
-    /// [`VisionError::OutOfRange`] names the key.
-    pub fn validate(&self) -> Result<(), VisionError> {
-        let not_negative = |name, value: f64| (name, value, value >= 0.0 && value.is_finite(), "it must be 0 or more");
-        let checks = [
-            ("map.max_side_px", f64::from(self.max_side_px), self.max_side_px >= 64, "it must be 64 or more"),
-            (
-                "map.least_pixel_ratio",
-                self.least_pixel_ratio,
-                self.least_pixel_ratio > 0.0 && self.least_pixel_ratio.is_finite(),
-                "it must be a positive number",
-            ),
-            ("map.fewest_sightings", self.fewest_sightings as f64, self.fewest_sightings >= 4, "it must be 4 or more"),
-            (
-                "map.candidates",
-                self.candidates as f64,
-                self.candidates >= self.fewest_sightings,
-                "it must be no less than map.fewest_sightings",
-            ),
-            (
-                "map.most_sightings",
-                self.most_sightings as f64,
-                self.most_sightings >= self.fewest_sightings,
-                "it must be no less than map.fewest_sightings",
-            ),
-            (
-                "map.least_agreeing",
-                self.least_agreeing,
-                (0.0..=1.0).contains(&self.least_agreeing),
-                "it must lie between 0 and 1",
-            ),
-            (
-                "map.track_sigma_px",
-                self.track_sigma_px,
-                self.track_sigma_px > 0.0 && self.track_sigma_px.is_finite(),
-                "it must be a positive number",
-            ),
-            not_negative("map.looks_sigma_px", self.looks_sigma_px),
-            not_negative("map.common_sigma_px", self.common_sigma_px),
-            not_negative("map.standing_out", self.standing_out),
-            not_negative("map.standing_out_sigma", self.standing_out_sigma),
-        ];
-        match checks.iter().find(|(_, _, holds, _)| !holds) {
-            Some((name, value, _, cure)) => Err(VisionError::OutOfRange { name, value: *value, cure }),
-            None => Ok(()),
+    /// Names the key.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        limits::count_from("max_side_px", self.max_side_px as usize, 64)?;
+        limits::positive("least_pixel_ratio", self.least_pixel_ratio)?;
+        limits::count_from("fewest_sightings", self.fewest_sightings, 4)?;
+        for (key, value) in [("candidates", self.candidates), ("most_sightings", self.most_sightings)] {
+            if value < self.fewest_sightings {
+                return Err(OutOfRange::new(key, value, "it must be no less than fewest_sightings"));
+            }
         }
+        limits::within("least_agreeing", self.least_agreeing, 0.0, 1.0)?;
+        limits::positive("track_sigma_px", self.track_sigma_px)?;
+        limits::at_least("looks_sigma_px", self.looks_sigma_px, 0.0)?;
+        limits::at_least("common_sigma_px", self.common_sigma_px, 0.0)?;
+        limits::at_least("standing_out", self.standing_out, 0.0)?;
+        limits::at_least("standing_out_sigma", self.standing_out_sigma, 0.0)
     }
 }

@@ -39,7 +39,7 @@ impl MapMatcher {
     /// # Errors
     /// [`VisionError::OutOfRange`] names the setting at fault.
     pub fn new(map: &GroundMap, config: &MapMatchConfig) -> Result<Self, VisionError> {
-        config.validate()?;
+        config.validate().map_err(|e| e.under("map"))?;
         Ok(MapMatcher { ground: Ground::new(map), config: config.clone() })
     }
 

@@ -1,9 +1,11 @@
 //! Parameters of description and matching.
 
+use crate::settings::{OutOfRange, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What describes the neighbourhood of a feature.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DescriptorKind {
     /// 256 comparisons of grey levels (Rublee et al. 2011): quick.
@@ -14,14 +16,14 @@ pub enum DescriptorKind {
 }
 
 /// Description by SIFT and matching of such descriptors.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SiftConfig {
-    /// Side of the square patch that is described, px (default 21).
+    /// Side of the square patch that is described, px, 8 to 128 (default 21).
     pub patch_px: f64,
-    /// The best distance must be below this fraction of the second best (default 0.84).
+    /// The best distance must be below this fraction of the second best, above 0 to 1 (default 0.84).
     pub max_ratio: f64,
-    /// Greatest distance of two descriptors, whose length is about 512 (default 280).
+    /// Greatest distance of two descriptors, whose length is about 512, above 0 (default 280).
     pub max_distance: f64,
 }
 
@@ -32,18 +34,18 @@ impl Default for SiftConfig {
 }
 
 /// Description and matching.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MatcherConfig {
     /// What describes a feature (default orb).
     pub descriptor: DescriptorKind,
-    /// ORB: the best distance must be below this fraction of the second best (default 0.85).
+    /// ORB: the best distance must be below this fraction of the second best, above 0 to 1 (default 0.85).
     pub max_ratio: f64,
-    /// ORB: greatest Hamming distance of 256 bits (default 64).
+    /// ORB: greatest Hamming distance of 256 bits, 0 or more (default 64).
     pub max_distance_bits: u32,
     /// SIFT, used with that descriptor only.
     pub sift: SiftConfig,
-    /// Search radius about the predicted pixel when the rotation is predicted, px (default 60).
+    /// Search radius about the predicted pixel when the rotation is predicted, px, above 0 (default 60).
     pub guided_radius_px: f64,
 }
 
@@ -56,5 +58,35 @@ impl Default for MatcherConfig {
             sift: SiftConfig::default(),
             guided_radius_px: 60.0,
         }
+    }
+}
+
+impl SiftConfig {
+    /// Smaller patches have fewer pixels than a descriptor has sums, which OpenCV's memory does not hold; larger ones take a
+    /// long time and tell no more.
+    pub(super) fn check_patch_px(patch_px: f64) -> Result<(), OutOfRange> {
+        limits::within("patch_px", patch_px, 8.0, 128.0)
+    }
+
+    /// Checks every range.
+    ///
+    /// # Errors
+    /// Names the key.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        SiftConfig::check_patch_px(self.patch_px)?;
+        limits::above_to("max_ratio", self.max_ratio, 0.0, 1.0)?;
+        limits::positive("max_distance", self.max_distance)
+    }
+}
+
+impl MatcherConfig {
+    /// Checks every range.
+    ///
+    /// # Errors
+    /// Names the key.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        limits::above_to("max_ratio", self.max_ratio, 0.0, 1.0)?;
+        self.sift.validate().map_err(|e| e.under("sift"))?;
+        limits::positive("guided_radius_px", self.guided_radius_px)
     }
 }

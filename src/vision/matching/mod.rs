@@ -14,4 +14,4 @@ pub use descriptor::{Descriptor, MatchLimits, Orientation};
 pub use descriptor_set::{Descriptions, match_described};
 pub use matcher::{Described, IndexMatch, match_features, match_features_guided};
 pub use orb::{OrbDescriptor, describe_orb};
-pub use sift::{PATCH_CURE, PATCH_RANGE_PX, SiftDescriptor, describe_sift};
+pub use sift::{SiftDescriptor, describe_sift};

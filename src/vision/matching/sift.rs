@@ -1,6 +1,6 @@
 //! SIFT descriptors (Lowe 2004) at given corners, on one scale.
 
-use super::config::MatcherConfig;
+use super::config::{MatcherConfig, SiftConfig};
 use super::descriptor::{Descriptor, EDGE_PX, MatchLimits, Orientation, key_points};
 use crate::vision::error::VisionError;
 use crate::vision::features::Feature;
@@ -49,12 +49,6 @@ impl Descriptor for SiftDescriptor {
     }
 }
 
-/// Least and greatest side of a patch, px: smaller ones have fewer pixels than a descriptor has sums, which OpenCV's
-/// memory does not hold; larger ones take a long time and tell no more.
-pub const PATCH_RANGE_PX: std::ops::RangeInclusive<f64> = 8.0..=128.0;
-/// What to do about a patch outside this range.
-pub const PATCH_CURE: &str = "it must lie between 8 and 128 px";
-
 /// One SIFT descriptor a feature, in the same order, of a square patch of that side (8 to 128 px); features too close to
 /// the picture's edge and those on a flat patch get `None`. It holds some 30 bytes a pixel of the picture meanwhile.
 ///
@@ -66,9 +60,7 @@ pub fn describe_sift(
     orientation: Orientation,
     patch_px: f64,
 ) -> Result<Vec<Option<SiftDescriptor>>, VisionError> {
-    if !PATCH_RANGE_PX.contains(&patch_px) {
-        return Err(VisionError::OutOfRange { name: "matcher.sift.patch_px", value: patch_px, cure: PATCH_CURE });
-    }
+    SiftConfig::check_patch_px(patch_px).map_err(|e| e.under("matcher.sift"))?;
     described(picture, features, orientation, patch_px).map_err(VisionError::opencv("describe features"))
 }
 

@@ -1,30 +1,32 @@
 //! Settings of a pair's rotation.
 
+use crate::settings::{OutOfRange, limits};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Rotation between two pictures.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RotationConfig {
-    /// Inlier threshold of the first robust estimate, px (default 1.5).
+    /// Inlier threshold of the first robust estimate, px, above 0 (default 1.5).
     pub threshold_px: f64,
-    /// Nominal 1σ of a pixel where none is given, px (default 0.3). The fit estimates its own scale from it.
+    /// Nominal 1σ of a pixel where none is given, px, above 0 (default 0.3). The fit estimates its own scale from it.
     pub sigma_px: f64,
-    /// Fewest matches to try, and fewest inliers to accept (default 20).
+    /// Fewest matches to try, and fewest inliers to accept, 8 or more (default 20).
     pub min_matches: usize,
-    /// Least fraction of the matches that must agree (default 0.3).
+    /// Least fraction of the matches that must agree, 0 to 1 (default 0.3).
     pub min_inlier_ratio: f64,
-    /// Greatest 1σ of the rotation about any axis that is still a determined rotation, rad (default 0.02).
+    /// Greatest 1σ of the rotation about any axis that is still a determined rotation, rad, above 0 (default 0.02).
     pub max_sigma_rad: f64,
-    /// Greatest rotation between two pictures, rad (default 1.0); the twisted solution lies near π.
+    /// Greatest rotation between two pictures, rad, above 0 (default 1.0); the twisted solution lies near π.
     pub max_angle_rad: f64,
-    /// 1σ of a predicted rotation, rad (default 0.005).
+    /// 1σ of a predicted rotation, rad, above 0 (default 0.005).
     pub prior_sigma_rad: f64,
-    /// Variance of errors that vary smoothly over the picture, as a share of the noise's (default 0.0007). It grows with
+    /// Variance of errors that vary smoothly over the picture, as a share of the noise's, 0 to 1 (default 0.0007). It grows with
     /// the square of the translation over the distance: the looks of ground change with the view. 0 where pixels err by
     /// white noise alone, as simulated ones do.
     pub smooth_error_share: f64,
-    /// Seed of the random samples (default 1).
+    /// Seed of the random samples, 0 to 2⁶³-1 (default 1).
     pub seed: u64,
 }
 
@@ -45,18 +47,19 @@ impl Default for RotationConfig {
 }
 
 /// The fixed-centre model.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FixedCenterConfig {
-    /// 1σ of the first guess of the centre's direction (the centroid of the bright silhouette), rad (default 0.05).
+    /// 1σ of the first guess of the centre's direction (the centroid of the bright silhouette), rad, above 0
+    /// (default 0.05).
     pub center_sigma_rad: f64,
-    /// Width of the band along the limb and the terminator where no feature is taken, px (default 8).
+    /// Width of the band along the limb and the terminator where no feature is taken, px, 0 or more (default 8).
     pub limb_margin_px: u32,
-    /// A rate this far from the running median is suspect, rad/s (default 1°/s)…
+    /// A rate this far from the running median is suspect, rad/s, above 0 (default 0.017453, 1°/s)…
     pub rate_gate_rad_s: f64,
-    /// …or this fraction of the median, whichever is greater (default 0.2).
+    /// …or this fraction of the median, whichever is greater, above 0 (default 0.2).
     pub rate_gate_ratio: f64,
-    /// Variance of errors that vary smoothly over the picture, as a share of the noise's (default 0.0018): the light moves
+    /// Variance of errors that vary smoothly over the picture, as a share of the noise's, 0 to 1 (default 0.0018): the light moves
     /// over a body that turns.
     pub smooth_error_share: f64,
     /// Whether a patch's stretch from picture to picture is refined by its own grey levels (default true): a body's surface
@@ -74,5 +77,36 @@ impl Default for FixedCenterConfig {
             smooth_error_share: 0.0018,
             stretch_patches: true,
         }
+    }
+}
+
+impl RotationConfig {
+    /// Checks every range.
+    ///
+    /// # Errors
+    /// Names the key.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        limits::positive("threshold_px", self.threshold_px)?;
+        limits::positive("sigma_px", self.sigma_px)?;
+        limits::count_from("min_matches", self.min_matches, 8)?;
+        limits::within("min_inlier_ratio", self.min_inlier_ratio, 0.0, 1.0)?;
+        limits::positive("max_sigma_rad", self.max_sigma_rad)?;
+        limits::positive("max_angle_rad", self.max_angle_rad)?;
+        limits::positive("prior_sigma_rad", self.prior_sigma_rad)?;
+        limits::within("smooth_error_share", self.smooth_error_share, 0.0, 1.0)?;
+        limits::seed("seed", self.seed)
+    }
+}
+
+impl FixedCenterConfig {
+    /// Checks every range.
+    ///
+    /// # Errors
+    /// Names the key.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        limits::positive("center_sigma_rad", self.center_sigma_rad)?;
+        limits::positive("rate_gate_rad_s", self.rate_gate_rad_s)?;
+        limits::positive("rate_gate_ratio", self.rate_gate_ratio)?;
+        limits::within("smooth_error_share", self.smooth_error_share, 0.0, 1.0)
     }
 }

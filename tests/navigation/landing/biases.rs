@@ -6,7 +6,6 @@ use super::flown::{last_of, mean, nees};
 use nalgebra::Vector3;
 use opnav::navigation::landing::{BiasPrior, LandingConfig, LandingInput};
 use opnav::stats::{ConsistencyBounds, random_stream};
-use rayon::prelude::*;
 
 /// The same flight with an IMU that measures too much by constant biases.
 pub fn biased(mut input: LandingInput, run: u64) -> (LandingInput, Vector3<f64>, Vector3<f64>) {

@@ -10,7 +10,6 @@ use opnav::navigation::landing::{
 };
 use opnav::navigation::landmark::GroundPrior;
 use opnav::stats::{ConsistencyBounds, normalized_error_squared, random_stream};
-use rayon::prelude::*;
 
 /// A landmark from two rays: exact without noise, and its error and covariance agree over samples, in both coordinates;
 /// rays that meet too flat place nothing.

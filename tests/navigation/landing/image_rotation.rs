@@ -10,7 +10,6 @@ use opnav::navigation::landing::{
     BiasPrior, ImageRotation, ImageRotationUse, ImuIncrement, LandingConfig, LandingEpoch, LandingInput,
 };
 use opnav::stats::{ConsistencyBounds, random_stream};
-use rayon::prelude::*;
 
 /// What the images tell of the lander's rotation between two frames, with noise.
 fn image_rotations(input: &LandingInput, sigma_rad: f64, run: u64) -> Vec<ImageRotation> {

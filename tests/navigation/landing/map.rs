@@ -6,7 +6,6 @@ use super::flown::{error, land, last_of, mean};
 use nalgebra::{Vector2, Vector3};
 use opnav::navigation::landing::{KnownSighting, LandingConfig, LandingInput};
 use opnav::stats::random_stream;
-use rayon::prelude::*;
 
 /// Sightings of points of a map make yaw observable and tie the height; points that are off by more than they claim are
 /// gated, not believed.

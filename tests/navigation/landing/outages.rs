@@ -4,7 +4,6 @@ use super::flight::{FLIGHT, fly};
 use super::flown::{error, land, last_frame, nees};
 use nalgebra::Vector2;
 use opnav::navigation::landing::{LandingConfig, LandingEpoch};
-use rayon::prelude::*;
 
 /// Ten frames without anything: the filter coasts and says so, its covariance does not shrink, then it recovers.
 #[test]

@@ -5,7 +5,6 @@ use nalgebra::{Quaternion, UnitQuaternion};
 use opnav::dataset::read_timed_table;
 use opnav::navigation::tumbling::*;
 use opnav::observations::{PairStatus, RelativeRotation};
-use rayon::prelude::*;
 
 #[test]
 fn unusable_input_gives_one_clear_error() {

@@ -7,7 +7,6 @@ use nalgebra::UnitQuaternion;
 use opnav::geometry::Manifold;
 use opnav::navigation::tumbling::*;
 use opnav::stats::ConsistencyBounds;
-use rayon::prelude::*;
 
 #[test]
 fn realtime_filter_is_consistent() {

@@ -4,7 +4,6 @@ use super::simulated::{PAPER, at_start, paper_rate, rate_deg_s};
 use nalgebra::{Matrix3, Quaternion, SMatrix, SVector, UnitQuaternion, Vector3};
 use opnav::geometry::central_difference;
 use opnav::navigation::tumbling::*;
-use rayon::prelude::*;
 
 #[test]
 fn jacobians_are_the_printed_ones_and_agree_with_differences() {

@@ -24,7 +24,7 @@ impl Mesh {
 impl ShapeFile {
     /// As [`Mesh::read`], with texture coordinates.
     pub fn read(path: &Path, metres_per_unit: f64) -> Result<ShapeFile, SceneError> {
-        limits::positive("metres_per_unit", metres_per_unit).map_err(|e| e.in_file(path))?;
+        limits::positive("metres_per_unit", metres_per_unit).map_err(|e| SceneError::from(e).in_file(path))?;
         let content = std::fs::read(path).map_err(|source| SceneError::Io {
             action: "read the shape",
             path: path.into(),

@@ -4,7 +4,7 @@ use super::albedo::{GlobeMap, MeshAlbedo};
 use super::albedo_image::{AlbedoImage, PictureEdge};
 use super::mesh::Mesh;
 use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -42,7 +42,7 @@ impl AlbedoMapFile {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::within("west_edge_deg", self.west_edge_deg, -360.0, 360.0)
     }
 }

@@ -4,8 +4,7 @@ use super::boulder::{Boulder, SizeLaw};
 use super::crater::BodyCrater;
 use super::relief::BodyRelief;
 use crate::scene::body::mesh::Mesh;
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use crate::stats::random_stream;
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
@@ -96,7 +95,7 @@ impl ProceduralBody {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         for semi_axis_m in self.semi_axes_m {
             limits::within("semi_axes_m", semi_axis_m, 0.01, 1e6)?;
         }

@@ -1,8 +1,7 @@
 //! Samples as they stand in a file without a header of its own.
 
 use super::file_raster::{MOST_POSTS, too_many};
-use crate::scene::error::SceneError;
-use crate::settings::limits;
+use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -89,7 +88,7 @@ impl RawLayout {
     ///
     /// # Errors
     /// Names the first key outside its range.
-    pub fn validate(&self) -> Result<(), SceneError> {
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         limits::count("columns", self.columns, 2, 1_000_000)?;
         limits::count("rows", self.rows, 2, 1_000_000)
     }
