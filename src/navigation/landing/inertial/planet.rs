@@ -14,11 +14,6 @@ pub struct Planet {
 }
 
 impl Planet {
-    /// A planet that does not turn, gravity in the site frame.
-    pub fn at_rest(gravity_in_site_m_s2: Vector3<f64>) -> Self {
-        Planet { gravity_in_site_m_s2, rate_in_site_rad_s: Vector3::zeros() }
-    }
-
     /// Whether it turns.
     pub fn turns(&self) -> bool {
         self.rate_in_site_rad_s != Vector3::zeros()
