@@ -11,7 +11,7 @@ pub const ROOMS: &[(&str, &[&str])] = &[
     ("render", &["geometry", "stats", "settings", "dataset", "dataset/truth", "scene"]),
     ("vision", &["geometry", "stats", "settings", "dataset", "observations"]),
     ("navigation/filter", &["geometry", "stats"]),
-    ("navigation/landmark", &["geometry", "stats", "settings"]),
+    ("navigation/landmark", &["geometry", "stats", "settings", "navigation/filter"]),
     ("navigation/observability", &["geometry", "stats"]),
     ("navigation/landing", MISSION),
     ("navigation/tumbling", MISSION),

@@ -3,7 +3,7 @@
 mod accuracy;
 mod bearings;
 mod biases;
-mod chart;
+pub mod chart;
 mod delayed;
 pub mod descent;
 mod designated;

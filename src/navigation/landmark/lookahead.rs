@@ -3,7 +3,8 @@
 use super::bearing::projector_over_range;
 use super::viewpoint::Viewpoint;
 use crate::geometry::so3::{hat, tangent_basis};
-use nalgebra::{Matrix3, SMatrix, Unit, Vector3};
+use crate::navigation::filter::{Innovation, correction};
+use nalgebra::{Matrix2, Matrix3, SMatrix, Unit, Vector2, Vector3};
 
 type Matrix12 = SMatrix<f64, 12, 12>;
 
@@ -83,10 +84,8 @@ fn bearing_rows(relative_m: &Vector3<f64>, unknown: bool) -> SMatrix<f64, 2, 12>
     h
 }
 
+/// The covariance after a bearing; before it, if that has no noise and nothing new to tell.
 fn after_bearing(p: &Matrix12, h: &SMatrix<f64, 2, 12>, view: &Viewpoint) -> Matrix12 {
-    let noise = nalgebra::Matrix2::identity() * view.sigma_bearing_rad.powi(2);
-    match (h * p * h.transpose() + noise).try_inverse() {
-        Some(inverse) => p - p * h.transpose() * inverse * h * p,
-        None => *p,
-    }
+    let noise = Matrix2::identity() * view.sigma_bearing_rad.powi(2);
+    correction(*p, &[Innovation::dense(Vector2::zeros(), *h, noise)]).map_or(*p, |after| after.covariance)
 }

@@ -53,9 +53,11 @@ fn filter_as_the_paper(
     let (mut squares, mut innovations) = (0.0, 0_usize);
     for k in 1..times_s.len() {
         let diverged = || TumblingError::Diverged { t_ns: frame_times_ns[k] };
-        filter.predict(times_s[k] - times_s[k - 1]).ok_or_else(diverged)?;
+        filter = filter.predict(times_s[k] - times_s[k - 1]).ok_or_else(diverged)?;
         if let Some(attitude) = &attitudes[k] {
-            squares += filter.correct(attitude).ok_or_else(diverged)?;
+            let (corrected, square) = filter.correct(attitude).ok_or_else(diverged)?;
+            filter = corrected;
+            squares += square;
             innovations += 3;
         }
         epochs.push(filter.epoch(frame_times_ns[k]));

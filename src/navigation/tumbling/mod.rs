@@ -27,6 +27,6 @@ pub use config::{Estimator, PaperConfig, PaperIntegration, TumblingConfig};
 pub use error::TumblingError;
 pub use estimate::estimate;
 pub use files::{write_covariance_csv, write_estimate_csv};
-pub use filters::PaperFilter;
+pub use filters::{PaperFilter, PaperState};
 pub use motion::{FreeBody, INERTIA_NAMES, InertiaRatios, Sensitivity, SpinState, TrajectoryPoint, propagate};
 pub use result::{InertiaKnowledge, TumblingEpoch, TumblingResult};

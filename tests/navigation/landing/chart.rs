@@ -1,14 +1,14 @@
 //! A state with its error coordinates, and small parts that tests of derivatives share.
 
 use super::descent::{PLANET, exact_increment, truth};
-use nalgebra::{SVector, Unit, UnitQuaternion, Vector3};
+use nalgebra::{SMatrix, SVector, Unit, UnitQuaternion, Vector3};
 use opnav::dataset::{ImuNoise, ImuSample};
 use opnav::geometry::Manifold;
 use opnav::geometry::so3::{exp, log};
 use opnav::navigation::filter::Gate;
 use opnav::navigation::landing::{
-    BearingObservation, CorrectionModel, DescentEstimate, DescentState, FilterKind, ImuIncrement, UnknownLandmark,
-    predict,
+    BearingInnovation, BearingObservation, CorrectionModel, DescentEstimate, DescentState, FilterKind, ImuIncrement,
+    UnknownLandmark, predict,
 };
 
 pub const KINDS: [FilterKind; 2] = [FilterKind::Hybrid, FilterKind::Standard];
@@ -93,3 +93,12 @@ pub fn imu_samples() -> Vec<ImuSample> {
 
 pub const NOISE: ImuNoise =
     ImuNoise { rate_hz: 100.0, gyroscope_noise_density: 1e-3, accelerometer_noise_density: 2e-2, bias: None };
+
+/// The Jacobian of a bearing with the columns of 0 between its blocks.
+pub fn dense<const N: usize>(innovation: &BearingInnovation) -> SMatrix<f64, 2, N> {
+    let mut dense = SMatrix::<f64, 2, N>::zeros();
+    for (start, block) in &innovation.jacobian {
+        dense.fixed_view_mut::<2, 3>(0, *start).copy_from(block);
+    }
+    dense
+}

@@ -2,10 +2,10 @@
 
 use super::innovation::{BearingInnovation, CorrectionModel, innovation, innovation_of};
 use super::measurement::{BearingObservation, KnownPoint};
-use crate::navigation::filter::{Innovation, iterated_correction};
-use crate::navigation::landing::error_state::{DescentEstimate, DescentState, FilterKind, LARGEST};
+use crate::navigation::filter::{correction, iterated_correction};
+use crate::navigation::landing::error_state::{DescentEstimate, DescentState};
 use crate::observations::TrackObservation;
-use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Vector2};
+use nalgebra::Vector2;
 use smallvec::SmallVec;
 
 /// What became of one bearing.
@@ -42,17 +42,12 @@ pub fn correct(
     bearings: &[BearingObservation],
     model: &CorrectionModel,
 ) -> Option<Corrected> {
-    let mut pairs = [Vector2::zeros(); LARGEST];
-    let mut accepted: SmallVec<[(BearingObservation, BearingInnovation); 4]> = SmallVec::new();
+    let mut accepted = Accepted::default();
     let mut outcomes = Outcomes::new();
     for bearing in bearings.iter().filter(|b| is_modelled(&estimate.state, b)) {
         let innovation = innovation_of(&estimate, bearing, model);
         let nis = match &innovation {
-            Some(innovation) => {
-                innovation.times_covariance(&estimate.covariance, &mut pairs);
-                let inverse = positive_inverse(&innovation.covariance(&pairs))?;
-                innovation.residual.dot(&(inverse * innovation.residual))
-            }
+            Some(innovation) => innovation.normalized_squared(&estimate.covariance)?,
             None => f64::INFINITY,
         };
         let used = model.gate.passes(nis, 2);
@@ -65,16 +60,21 @@ pub fn correct(
         if let Some(innovation) = innovation.filter(|_| used) {
             // The noise of the innovation holds that of the known point from here on.
             let known = bearing.known.map(|point| KnownPoint { sigma_m: 0.0, ..point });
-            accepted.push((BearingObservation { known, ..*bearing }, innovation));
+            accepted.bearings.push(BearingObservation { known, ..*bearing });
+            accepted.innovations.push(innovation);
         }
     }
-    let (mut estimate, normalized_innovation_squared) = match (accepted.is_empty(), model.iterations) {
-        (true, _) => (estimate, None),
-        (false, 0 | 1) => once(estimate, &accepted, &mut pairs, model.kind)?,
-        _ => repeatedly(estimate, &accepted, model)?,
-    };
+    let (mut estimate, normalized_innovation_squared) =
+        if accepted.bearings.is_empty() { (estimate, None) } else { used(estimate, &accepted, model)? };
     count(&mut estimate.state, &outcomes);
     Some(Corrected { estimate, outcomes, normalized_innovation_squared })
+}
+
+/// The bearings that passed the gate, and their innovations at the prior estimate.
+#[derive(Default)]
+struct Accepted {
+    bearings: SmallVec<[BearingObservation; 4]>,
+    innovations: SmallVec<[BearingInnovation; 4]>,
 }
 
 fn is_modelled(state: &DescentState, bearing: &BearingObservation) -> bool {
@@ -83,111 +83,38 @@ fn is_modelled(state: &DescentState, bearing: &BearingObservation) -> bool {
         || state.landmark_of(bearing.track_id).is_some()
 }
 
-/// One bearing after the other, in Joseph's form, all linearised at the prior estimate: the same as all at once.
-fn once(
+/// The estimate after the bearings accepted: once at the prior estimate, or in Gauss–Newton steps.
+fn used(
     estimate: DescentEstimate,
-    accepted: &[(BearingObservation, BearingInnovation)],
-    pairs: &mut [Vector2<f64>; LARGEST],
-    kind: FilterKind,
-) -> Option<(DescentEstimate, Option<f64>)> {
-    let DescentEstimate { state, mut covariance } = estimate;
-    let n = covariance.nrows();
-    let mut shift = [0.0; LARGEST];
-    let mut total = 0.0;
-    for (_, innovation) in accepted {
-        innovation.times_covariance(&covariance, pairs);
-        let inverse = positive_inverse(&innovation.covariance(pairs))?;
-        let residual = innovation.residual - innovation.times(&shift[..n]);
-        let weighted = inverse * residual;
-        total += residual.dot(&weighted);
-        for (component, pair) in shift.iter_mut().zip(&pairs[..n]) {
-            *component += pair.dot(&weighted);
-        }
-        joseph(&mut covariance, innovation, &pairs[..n], &inverse);
-    }
-    Some((DescentEstimate { state: kind.retract(state, &shift[..n]), covariance }, Some(total)))
-}
-
-/// P ← (I - K H) P (I - K H)ᵀ + K R Kᵀ with K = P Hᵀ S⁻¹, in place; `pairs` holds H P.
-fn joseph(p: &mut DMatrix<f64>, innovation: &BearingInnovation, pairs: &[Vector2<f64>], inverse: &Matrix2<f64>) {
-    let n = pairs.len();
-    let mut gains = [Vector2::zeros(); LARGEST];
-    for (gain, pair) in gains.iter_mut().zip(pairs) {
-        *gain = inverse * pair;
-    }
-    let gains = &gains[..n];
-    // (I - K H) P, column by column.
-    for (mut column, pair) in p.column_iter_mut().zip(pairs) {
-        for (entry, gain) in column.as_mut_slice().iter_mut().zip(gains) {
-            *entry -= gain.dot(pair);
-        }
-    }
-    // What is left of H P after that, row by row: W = ((I - K H) P) Hᵀ - K R.
-    let mut left = [Vector2::zeros(); LARGEST];
-    for (start, block) in innovation.blocks() {
-        for k in 0..3 {
-            let weight = block.column(k).into_owned();
-            for (pair, entry) in left.iter_mut().zip(p.column(start + k).as_slice()) {
-                *pair += weight * *entry;
-            }
-        }
-    }
-    for (pair, gain) in left.iter_mut().zip(gains) {
-        *pair -= innovation.noise * gain;
-    }
-    for (mut column, gain) in p.column_iter_mut().zip(gains) {
-        for (entry, pair) in column.as_mut_slice().iter_mut().zip(&left[..n]) {
-            *entry -= pair.dot(gain);
-        }
-    }
-    make_symmetric(p);
-}
-
-fn make_symmetric(p: &mut DMatrix<f64>) {
-    for column in 0..p.ncols() {
-        for row in column + 1..p.nrows() {
-            let mean = 0.5 * (p[(row, column)] + p[(column, row)]);
-            p[(row, column)] = mean;
-            p[(column, row)] = mean;
-        }
-    }
-}
-
-fn positive_inverse(s: &Matrix2<f64>) -> Option<Matrix2<f64>> {
-    let determinant = s.determinant();
-    (s[(0, 0)] > 0.0 && determinant > 0.0)
-        .then(|| Matrix2::new(s[(1, 1)], -s[(0, 1)], -s[(1, 0)], s[(0, 0)]) / determinant)
-}
-
-/// Gauss–Newton on the posterior, every bearing linearised anew at each step.
-fn repeatedly(
-    estimate: DescentEstimate,
-    accepted: &[(BearingObservation, BearingInnovation)],
+    accepted: &Accepted,
     model: &CorrectionModel,
 ) -> Option<(DescentEstimate, Option<f64>)> {
-    let n = estimate.covariance.nrows();
-    let linearize = |error: &DVector<f64>| {
-        let state = model.kind.retract(estimate.state.clone(), error.as_slice());
-        // A bearing that points away at this step adds nothing to it.
-        let blank = |b: &BearingInnovation| BearingInnovation {
-            residual: Vector2::zeros(),
-            by_position: Matrix2x3::zeros(),
-            by_attitude: Matrix2x3::zeros(),
-            by_landmark: None,
-            noise: b.noise,
-        };
-        let parts: Vec<Innovation> = accepted
-            .iter()
-            .map(|(bearing, first)| {
-                innovation(&state, bearing, &first.noise, model).unwrap_or_else(|| blank(first)).dense(n)
-            })
-            .collect();
-        Innovation::stacked(&parts).expect("at least one bearing is accepted")
+    let DescentEstimate { state, covariance } = estimate;
+    let result = if model.iterations <= 1 {
+        correction(covariance, &accepted.innovations)?
+    } else {
+        iterated_correction(&covariance, model.iterations, |error| accepted.linearized(&state, error, model))?
     };
-    let correction = iterated_correction(&estimate.covariance, model.iterations, linearize)?;
-    let state = model.kind.retract(estimate.state, correction.shift.as_slice());
-    let estimate = DescentEstimate { state, covariance: correction.covariance };
-    Some((estimate, Some(correction.normalized_innovation_squared)))
+    let estimate = DescentEstimate { state: model.kind.retract(state, &result.shift), covariance: result.covariance };
+    Some((estimate, Some(result.normalized_innovation_squared)))
+}
+
+impl Accepted {
+    /// The bearings linearised at a state moved by an error; one that points away there adds nothing.
+    fn linearized(
+        &self,
+        state: &DescentState,
+        error: &[f64],
+        model: &CorrectionModel,
+    ) -> SmallVec<[BearingInnovation; 4]> {
+        let moved = model.kind.retract(state.clone(), error);
+        let blank = |noise| BearingInnovation { residual: Vector2::zeros(), jacobian: SmallVec::new(), noise };
+        let each = self.bearings.iter().zip(&self.innovations);
+        each.map(|(bearing, first)| {
+            innovation(&moved, bearing, &first.noise, model).unwrap_or_else(|| blank(first.noise))
+        })
+        .collect()
+    }
 }
 
 /// The landmarks' counts after an image.

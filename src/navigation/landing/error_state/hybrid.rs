@@ -9,6 +9,7 @@ use super::state::{ATTITUDE, BIASES, DescentState, POSITION, VELOCITY, WITH_BIAS
 use super::state_core::Core;
 use super::transition::{LandmarkTransition, Transition};
 use crate::geometry::so3::{exp, hat};
+use crate::navigation::filter::QuadraticMoments;
 use crate::navigation::landing::inertial::{ImuIncrement, Planet};
 use crate::stats::symmetric;
 use nalgebra::{Matrix3, SMatrix, Vector3};
@@ -168,27 +169,21 @@ pub(super) fn site_jacobian(state: &DescentState) -> SMatrix<f64, 9, 9> {
 }
 
 /// What the second order of r = exp(ψ×)(r̂ + e), e = Ĉᵀ s̃, adds to the second moments of r̃ and ṽ: a yaw that is off by ψ
-/// bends the error into an arc, ½ ψ² |r| across it. For quadratic forms ½ xᵀ A_i x of a Gaussian x with covariance P it
-/// is ½ tr(A_i P A_j P) + ¼ tr(A_i P) tr(A_j P).
+/// bends the error into an arc, ½ ψ² |r| across it.
 pub(super) fn site_second_moment(state: &DescentState, covariance: &SMatrix<f64, 9, 9>) -> SMatrix<f64, 9, 9> {
     let site_from_lander = state.lander_from_site.inverse().to_rotation_matrix().into_inner();
     let mut turn = SMatrix::<f64, 9, 9>::identity();
     turn.fixed_view_mut::<3, 3>(POSITION, POSITION).copy_from(&site_from_lander);
     turn.fixed_view_mut::<3, 3>(VELOCITY, VELOCITY).copy_from(&site_from_lander);
     let p = turn * covariance * turn.transpose();
-    let ap: [SMatrix<f64, 9, 9>; 6] = std::array::from_fn(|row| {
+    let hessians: [SMatrix<f64, 9, 9>; 6] = std::array::from_fn(|row| {
         let (start, vector) =
             if row < 3 { (POSITION, &state.lander_in_site_m) } else { (VELOCITY, &state.lander_velocity_in_site_m_s) };
-        second_derivative(row % 3, start, vector) * p
+        second_derivative(row % 3, start, vector)
     });
-    let trace_of_product = |a: &SMatrix<f64, 9, 9>, b: &SMatrix<f64, 9, 9>| a.dot(&b.transpose());
+    let bend = QuadraticMoments::new(&hessians, &p);
     let mut moment = SMatrix::<f64, 9, 9>::zeros();
-    for i in 0..6 {
-        for j in 0..=i {
-            moment[(i, j)] = 0.5 * trace_of_product(&ap[i], &ap[j]) + 0.25 * ap[i].trace() * ap[j].trace();
-            moment[(j, i)] = moment[(i, j)];
-        }
-    }
+    moment.fixed_view_mut::<6, 6>(0, 0).copy_from(&(bend.covariance + bend.mean * bend.mean.transpose()));
     moment
 }
 

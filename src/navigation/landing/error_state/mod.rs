@@ -14,8 +14,7 @@ pub use filter_kind::FilterKind;
 pub use ground_point::ground_point;
 pub use jacobian::{RayPoint, RelativeJacobian};
 pub use state::{
-    ATTITUDE, BIASES, DescentEstimate, DescentState, LARGEST, LandmarkRole, POSITION, UnknownLandmark, VELOCITY,
-    WITH_BIASES,
+    ATTITUDE, BIASES, DescentEstimate, DescentState, LandmarkRole, POSITION, UnknownLandmark, VELOCITY, WITH_BIASES,
 };
 pub use state_core::Core;
 pub use transition::{LandmarkTransition, Transition};

@@ -13,8 +13,6 @@ pub const ATTITUDE: usize = 6;
 pub const BIASES: usize = 9;
 /// Components of the error state with biases and without landmarks.
 pub const WITH_BIASES: usize = 15;
-/// The largest error state: biases, the designated point, 50 landmarks or rays.
-pub const LARGEST: usize = WITH_BIASES + 3 * (1 + 2 * 50);
 
 /// What a point of the state stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -1,10 +1,12 @@
 //! The rotation between two images as a check of the gyroscope, or as a measurement.
 
 use crate::geometry::so3::{exp, log};
+use crate::navigation::filter::{Innovation, correction};
 use crate::navigation::landing::error_state::{BIASES, DescentEstimate, FilterKind};
 use crate::navigation::landing::inertial::ImuIncrement;
 use crate::observations::{PairStatus, RelativeRotation};
-use nalgebra::{Isometry3, Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, SVector, UnitQuaternion, Vector3};
+use smallvec::smallvec;
 
 /// The lander's rotation between two images, as the images tell it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,14 +47,11 @@ impl ImageRotation {
     /// The increment corrected by the images' rotation: its error is estimated from the difference, by the correlation
     /// of rotation, velocity and position. `None` if the covariance is singular.
     pub fn fused(&self, increment: &ImuIncrement) -> Option<ImuIncrement> {
-        let by_rotation: SMatrix<f64, 9, 3> = increment.covariance.fixed_columns::<3>(0).into_owned();
-        let s = self.covariance_rad2 + by_rotation.fixed_rows::<3>(0);
-        let gain = by_rotation * s.try_inverse()?;
-        let p = increment.covariance - gain * by_rotation.transpose();
-        Some(ImuIncrement {
-            covariance: (p + p.transpose()) * 0.5,
-            ..increment.adjusted(&(gain * self.difference_rad(increment)))
-        })
+        let innovation =
+            Innovation::<3, 3>::dense(self.difference_rad(increment), Matrix3::identity(), self.covariance_rad2);
+        let after = correction(increment.covariance, &[innovation])?;
+        let error = SVector::from_column_slice(&after.shift);
+        Some(ImuIncrement { covariance: after.covariance, ..increment.adjusted(&error) })
     }
 
     /// The estimate with its biases corrected by the difference, and the increment that the new biases give. The
@@ -64,18 +63,16 @@ impl ImageRotation {
         kind: FilterKind,
     ) -> Option<(DescentEstimate, ImuIncrement)> {
         estimate.state.biases?;
-        let h = increment.by_bias.fixed_rows::<3>(0).into_owned();
-        let rows = h * estimate.covariance.rows(BIASES, 6);
-        let s = rows.fixed_columns::<6>(BIASES) * h.transpose()
-            + self.covariance_rad2
-            + increment.covariance.fixed_view::<3, 3>(0, 0);
-        let weight = s.cholesky()?.inverse();
-        let shift = rows.transpose() * (weight * self.difference_rad(increment));
-        let p = &estimate.covariance - rows.transpose() * weight * &rows;
-        let biases: SVector<f64, 6> = shift.fixed_rows::<6>(BIASES).into_owned();
-        let state = kind.retract(estimate.state.clone(), shift.as_slice());
-        let covariance = (&p + p.transpose()) * 0.5;
-        Some((DescentEstimate { state, covariance }, increment.adjusted(&(increment.by_bias * biases))))
+        let innovation = Innovation::<3, 6> {
+            residual: self.difference_rad(increment),
+            jacobian: smallvec![(BIASES, increment.by_bias.fixed_rows::<3>(0).into_owned())],
+            noise: self.covariance_rad2 + increment.covariance.fixed_view::<3, 3>(0, 0),
+        };
+        let after = correction(estimate.covariance.clone(), &[innovation])?;
+        let biases = SVector::<f64, 6>::from_column_slice(&after.shift[BIASES..BIASES + 6]);
+        let state = kind.retract(estimate.state.clone(), &after.shift);
+        let estimate = DescentEstimate { state, covariance: after.covariance };
+        Some((estimate, increment.adjusted(&(increment.by_bias * biases))))
     }
 }
 

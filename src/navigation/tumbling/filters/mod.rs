@@ -3,5 +3,5 @@
 mod paper_filter;
 mod realtime;
 
-pub use paper_filter::{PaperFilter, chained_attitudes};
+pub use paper_filter::{PaperFilter, PaperState, chained_attitudes};
 pub use realtime::filter_after_first_arc;

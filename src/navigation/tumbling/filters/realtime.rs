@@ -3,15 +3,16 @@
 
 use crate::geometry::Manifold;
 use crate::geometry::so3::log;
+use crate::navigation::filter::{Innovation, correction};
 use crate::navigation::tumbling::bounds::{INERTIA_UNIT, UndeterminedDirection, weak_ratios};
 use crate::navigation::tumbling::config::TumblingConfig;
 use crate::navigation::tumbling::error::TumblingError;
-use crate::navigation::tumbling::estimate::symmetric;
 use crate::navigation::tumbling::motion::{InertiaRatios, SpinState, propagate};
 use crate::navigation::tumbling::pair::RotationPair;
 use crate::navigation::tumbling::result::{InertiaKnowledge, PairCount, TumblingEpoch, TumblingResult};
 use crate::navigation::tumbling::shooting::{ShootingFit, seconds, shoot, shooting_epochs};
-use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{DMatrix, Matrix3, SMatrix, UnitQuaternion, Vector3, Vector6};
+use smallvec::smallvec;
 
 /// Size of (attitude error in inertial axes, rate error, ratio errors).
 const CORE: usize = 11;
@@ -37,11 +38,9 @@ pub fn filter_after_first_arc(
     let mut epochs = shooting_epochs(&shot, &frame_times_ns[..first]);
     let mut filter = CloneFilter::start(&shot, pairs, config);
     for k in first..times_s.len() {
-        filter.predict(times_s[k] - times_s[k - 1]).ok_or(TumblingError::Diverged { t_ns: frame_times_ns[k] })?;
-        for pair in pairs.iter().filter(|p| p.to == k) {
-            filter.correct(pair);
-        }
-        filter.store(k, pairs);
+        let lost = TumblingError::Diverged { t_ns: frame_times_ns[k] };
+        filter = filter.predict(times_s[k] - times_s[k - 1]).ok_or(lost)?;
+        filter = pairs.iter().filter(|p| p.to == k).fold(filter, CloneFilter::correct).stored(k, pairs);
         epochs.push(filter.epoch(frame_times_ns[k]));
     }
     let used = shot.pairs_used + filter.accepted;
@@ -116,7 +115,7 @@ impl CloneFilter {
     }
 
     /// The free-body motion, without process noise: the dynamics are exact.
-    fn predict(&mut self, dt_s: f64) -> Option<()> {
+    fn predict(mut self, dt_s: f64) -> Option<Self> {
         let next = propagate(&self.state, &self.inertia, &[0.0, dt_s])?.pop()?;
         let mut transition = SMatrix::<f64, CORE, CORE>::identity();
         transition.fixed_view_mut::<6, 8>(0, 3).copy_from(&next.sensitivity);
@@ -124,70 +123,73 @@ impl CloneFilter {
         self.covariance.rows_mut(0, CORE).copy_from(&moved);
         let moved = self.covariance.columns(0, CORE) * transition.transpose();
         self.covariance.columns_mut(0, CORE).copy_from(&moved);
-        self.state = next.state;
-        Some(())
+        Some(CloneFilter { state: next.state, ..self })
     }
 
-    /// Corrects by a pair into the present picture, unless its first picture is not stored or it fails the gate.
-    fn correct(&mut self, pair: &RotationPair) {
-        let Some(slot) = self.stored.iter().position(|s| s.frame == pair.from) else { return };
+    /// The filter after a pair into the present picture; as it was if the first picture is not stored or the pair fails
+    /// the gate.
+    fn correct(self, pair: &RotationPair) -> Self {
+        let Some(slot) = self.stored.iter().position(|s| s.frame == pair.from) else { return self };
         let predicted = self.state.asteroid_from_inertial.inverse() * self.stored[slot].asteroid_from_inertial;
-        let innovation: Vector3<f64> = log(&(pair.measured * predicted.inverse()));
         // With A = Â exp(d), the prediction turns by -d_now + R̂ d_stored.
-        let column = CORE + 3 * slot;
         let by_stored = predicted.to_rotation_matrix().into_inner();
-        let h_p = by_stored * self.covariance.rows(column, 3) - self.covariance.rows(0, 3);
-        let p_ht = h_p.transpose();
-        let s: Matrix3<f64> =
-            (by_stored * p_ht.rows(column, 3) - p_ht.rows(0, 3)).fixed_view::<3, 3>(0, 0) + pair.covariance_rad2;
-        let Some(s_inverse) = symmetric(&s).cholesky().map(|c| c.inverse()) else { return };
-        let square = innovation.dot(&(s_inverse * innovation));
+        let innovation = Innovation::<3, 3> {
+            residual: log(&(pair.measured * predicted.inverse())),
+            jacobian: smallvec![(0, -Matrix3::identity()), (CORE + 3 * slot, by_stored)],
+            noise: pair.covariance_rad2,
+        };
+        let Some(square) = innovation.normalized_squared(&self.covariance) else { return self };
         if square > self.config.reject_sigma.powi(2) {
-            return;
+            return self;
         }
-        let gain = &p_ht * s_inverse;
-        self.apply(&(&gain * innovation));
-        self.covariance -= &gain * h_p;
-        self.covariance = (&self.covariance + self.covariance.transpose()) * 0.5;
-        self.accepted += 1;
-        self.squares += square;
-    }
-
-    fn apply(&mut self, correction: &DVector<f64>) {
-        self.state = self.state.plus(&Vector6::from_fn(|i, _| correction[i]));
-        self.inertia = InertiaRatios(std::array::from_fn(|i| self.inertia.0[i] + correction[6 + i]));
-        for (slot, stored) in self.stored.iter_mut().enumerate() {
-            let d = Vector3::from_fn(|i, _| correction[CORE + 3 * slot + i]);
-            stored.asteroid_from_inertial = stored.asteroid_from_inertial.plus(&d);
+        let Some(after) = correction(self.covariance.clone(), &[innovation]) else { return self };
+        let moved = self.moved(&after.shift);
+        CloneFilter {
+            covariance: after.covariance,
+            accepted: moved.accepted + 1,
+            squares: moved.squares + square,
+            ..moved
         }
     }
 
-    /// Keeps the present attitude if a later pair starts from it, and forgets those no longer needed, or the oldest.
-    fn store(&mut self, now: usize, pairs: &[RotationPair]) {
+    /// The states moved by an error.
+    fn moved(mut self, error: &[f64]) -> Self {
+        self.state = self.state.plus(&Vector6::from_column_slice(&error[..6]));
+        self.inertia = InertiaRatios(std::array::from_fn(|i| self.inertia.0[i] + error[6 + i]));
+        for (stored, d) in self.stored.iter_mut().zip(error[CORE..].chunks_exact(3)) {
+            stored.asteroid_from_inertial = stored.asteroid_from_inertial.plus(&Vector3::from_column_slice(d));
+        }
+        self
+    }
+
+    /// The filter that keeps the present attitude if a later pair starts from it, and has forgotten those no longer needed,
+    /// or the oldest.
+    fn stored(self, now: usize, pairs: &[RotationPair]) -> Self {
         let needed = |frame: usize| pairs.iter().any(|p| p.from == frame && p.to > now);
-        while let Some(slot) = self.stored.iter().position(|s| !needed(s.frame)) {
-            self.forget(slot);
+        let mut kept = self;
+        while let Some(slot) = kept.stored.iter().position(|s| !needed(s.frame)) {
+            kept = kept.without(slot);
         }
         if !needed(now) {
-            return;
+            return kept;
         }
-        if self.stored.len() >= self.config.realtime_clones {
-            self.forget(0);
+        if kept.stored.len() >= kept.config.realtime_clones {
+            kept = kept.without(0);
         }
-        let size = self.covariance.nrows();
-        let mut grown = self.covariance.clone().resize(size + 3, size + 3, 0.0);
+        let size = kept.covariance.nrows();
+        let mut grown = kept.covariance.resize(size + 3, size + 3, 0.0);
         let copied = grown.rows(0, 3).into_owned();
         grown.rows_mut(size, 3).copy_from(&copied);
         let copied = grown.columns(0, 3).into_owned();
         grown.columns_mut(size, 3).copy_from(&copied);
-        self.covariance = grown;
-        self.stored.push(Stored { frame: now, asteroid_from_inertial: self.state.asteroid_from_inertial });
+        kept.stored.push(Stored { frame: now, asteroid_from_inertial: kept.state.asteroid_from_inertial });
+        CloneFilter { covariance: grown, ..kept }
     }
 
-    fn forget(&mut self, slot: usize) {
+    fn without(mut self, slot: usize) -> Self {
         let first = CORE + 3 * slot;
-        self.covariance = self.covariance.clone().remove_rows(first, 3).remove_columns(first, 3);
         self.stored.remove(slot);
+        CloneFilter { covariance: self.covariance.remove_rows(first, 3).remove_columns(first, 3), ..self }
     }
 
     fn ratio_covariance(&self) -> SMatrix<f64, 5, 5> {
