@@ -1,6 +1,8 @@
 //! A linearised measurement: what was measured less what was predicted.
 
+use crate::stats::symmetric;
 use nalgebra::allocator::Allocator;
+use crate::stats::symmetric;
 use nalgebra::{DefaultAllocator, Dim, OMatrix, SMatrix, SVector};
 use smallvec::{SmallVec, smallvec};
 
@@ -62,7 +64,7 @@ impl<const M: usize, const W: usize> Innovation<M, W> {
         for (start, block) in &self.jacobian {
             s += SMatrix::<f64, M, W>::from_fn(|i, k| rows[start + k][i]) * block.transpose();
         }
-        (s + s.transpose()) * 0.5
+        symmetric(&s)
     }
 }
 

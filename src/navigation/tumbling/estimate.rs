@@ -7,7 +7,6 @@ use super::pair::{RotationPair, usable_pairs};
 use super::result::{PairCount, TumblingResult};
 use super::shooting::{ShootingFit, seconds, shoot, shooting_epochs};
 use crate::observations::RelativeRotation;
-pub(super) use crate::stats::symmetric;
 
 /// Attitude, rate and inertia ratios at each picture of `frame_times_ns`, from the rotations with status ok between them.
 ///

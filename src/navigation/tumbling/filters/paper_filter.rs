@@ -9,11 +9,10 @@ use crate::geometry::Manifold;
 use crate::geometry::so3::{exp, hat, log};
 use crate::navigation::filter::{CorrectionOptions, Innovation, correct_linearized};
 use crate::navigation::tumbling::config::{PaperConfig, PaperIntegration};
-use crate::navigation::tumbling::estimate::symmetric;
 use crate::navigation::tumbling::motion::{FreeBody, InertiaRatios, SpinState, propagate};
 use crate::navigation::tumbling::pair::RotationPair;
 use crate::navigation::tumbling::result::{InertiaKnowledge, TumblingEpoch};
-use crate::stats::Estimate;
+use crate::stats::{Estimate, symmetric};
 use nalgebra::{Matrix3, Quaternion, SMatrix, SVector, UnitQuaternion, Vector3};
 
 type Matrix11 = SMatrix<f64, 11, 11>;
