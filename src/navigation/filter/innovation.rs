@@ -2,7 +2,6 @@
 
 use crate::stats::symmetric;
 use nalgebra::allocator::Allocator;
-use crate::stats::symmetric;
 use nalgebra::{DefaultAllocator, Dim, OMatrix, SMatrix, SVector};
 use smallvec::{SmallVec, smallvec};
 
