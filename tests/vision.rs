@@ -6,6 +6,7 @@ mod features;
 mod map;
 mod masks;
 mod matching;
+mod noise_model;
 mod pair;
 pub mod texture;
 mod tracking;

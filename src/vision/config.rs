@@ -2,6 +2,7 @@
 
 use super::features::DetectorConfig;
 use super::matching::MatcherConfig;
+use super::noise_model::{DesignatedNoise, NoiseModel};
 use super::pair::{FixedCenterConfig, RotationConfig};
 use super::patch::KltConfig;
 use crate::settings::{OutOfRange, limits};
@@ -39,6 +40,8 @@ pub struct FrontEndConfig {
     pub keyframe_spans: Vec<usize>,
     /// Keyframe pairs further apart are left out, rad, above 0 (default 0.5236, 30°).
     pub keyframe_max_angle_rad: f64,
+    /// How wrong the carried designated point is (default: the noise model's).
+    pub designated: DesignatedNoise,
 }
 
 impl Default for FrontEndConfig {
@@ -52,11 +55,22 @@ impl Default for FrontEndConfig {
             fixed_center: FixedCenterConfig::default(),
             keyframe_spans: vec![2, 3, 4],
             keyframe_max_angle_rad: 30f64.to_radians(),
+            designated: DesignatedNoise::default(),
         }
     }
 }
 
 impl FrontEndConfig {
+    /// The same settings with every constant of a noise model that concerns them.
+    pub fn with_noise_model(mut self, model: &NoiseModel) -> Self {
+        self.detector.noise = model.corner;
+        self.klt.noise = model.patch;
+        self.rotation.noise = model.pair;
+        self.fixed_center.noise = model.body;
+        self.designated = model.designated;
+        self
+    }
+
     /// Checks every range.
     ///
     /// # Errors
@@ -67,6 +81,7 @@ impl FrontEndConfig {
         self.klt.validate().map_err(|e| e.under("klt"))?;
         self.rotation.validate().map_err(|e| e.under("rotation"))?;
         self.fixed_center.validate().map_err(|e| e.under("fixed_center"))?;
+        self.designated.validate().map_err(|e| e.under("designated"))?;
         self.keyframe_spans.iter().try_for_each(|span| limits::count_from("keyframe_spans", *span, 2))?;
         limits::positive("keyframe_max_angle_rad", self.keyframe_max_angle_rad)
     }

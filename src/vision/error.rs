@@ -31,6 +31,12 @@ pub enum VisionError {
     /// A setting outside its range.
     #[error("front-end setting {0}")]
     OutOfRange(#[from] OutOfRange),
+    /// A noise model that cannot be read.
+    #[error("the noise model is not usable: {problem}")]
+    NoiseModel {
+        /// What is wrong, with the key.
+        problem: String,
+    },
     /// A mask of another size than its picture.
     #[error("the mask is {mask_width_px}x{mask_height_px} px, but its picture is {width_px}x{height_px} px")]
     MaskSize {

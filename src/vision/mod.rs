@@ -58,6 +58,7 @@ mod front_end;
 mod map;
 mod masks;
 mod matching;
+mod noise_model;
 mod opencv_bridge;
 mod pair;
 mod patch;
@@ -74,6 +75,9 @@ pub use masks::{bright_centroid_px, inside_silhouette};
 pub use matching::{
     Described, Descriptor, DescriptorKind, IndexMatch, MatchLimits, MatcherConfig, OrbDescriptor, Orientation,
     SiftConfig, SiftDescriptor, describe_orb, describe_sift, match_features, match_features_guided,
+};
+pub use noise_model::{
+    BodyNoise, Constant, CornerNoise, DesignatedNoise, MapNoise, NoiseModel, NoiseModelFile, PairNoise, PatchNoise,
 };
 pub use opencv_bridge::opencv_version;
 pub use pair::relative_rotation;

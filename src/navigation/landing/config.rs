@@ -76,6 +76,9 @@ pub struct LandingConfig {
     pub designated_sigma_px: f64,
     /// 1σ by which the tracker drifts off the designated point an image, px, 0 or more (default 0).
     pub designated_drift_px: f64,
+    /// What images show otherwise than a map stays wrong in the same way until the scale has changed by this, as a natural
+    /// logarithm, 0 or more (default 0: each image errs on its own). With a map, the noise model's counts.
+    pub map_shared_ln_scale: f64,
     /// Seed of the random selector, 0 to 2⁶³-1 (default 0).
     pub seed: u64,
 }
@@ -102,6 +105,7 @@ impl Default for LandingConfig {
             ground: GroundPrior::default(),
             designated_sigma_px: 0.0,
             designated_drift_px: 0.0,
+            map_shared_ln_scale: 0.0,
             seed: 0,
         }
     }
@@ -150,6 +154,7 @@ impl LandingConfig {
         self.ground.validate().map_err(|e| e.under("ground"))?;
         limits::at_least("designated_sigma_px", self.designated_sigma_px, 0.0)?;
         limits::at_least("designated_drift_px", self.designated_drift_px, 0.0)?;
+        limits::at_least("map_shared_ln_scale", self.map_shared_ln_scale, 0.0)?;
         limits::seed("seed", self.seed)
     }
 }

@@ -16,10 +16,6 @@ use nalgebra::Isometry3;
 /// Probability that designated point and map agree by [`PointByMap::contradicts`], if both are right.
 const AGREEMENT: f64 = 1.0 - 1e-6;
 
-/// What a picture shows otherwise than the map stays wrong in the same way until the scale has changed by this, as a
-/// natural logarithm (fitted to rendered ground).
-const SHARED_SCALE: f64 = 0.14;
-
 /// The designated point, seen from where the map says the camera is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointByMap {
@@ -69,7 +65,7 @@ pub fn sighted_by_map<E: From<LandingError>>(
         let camera = predicted_camera(&predicted, &mount.lander_from_camera, config);
         let found = if height_m >= config.minimum_image_height_m { look(&camera, t_ns)? } else { None };
         let sharing = match (&found, last_height_m) {
-            (Some(_), Some(last_m)) => frames_that_share(height_m / last_m),
+            (Some(_), Some(last_m)) => frames_that_share(height_m / last_m, config.map_shared_ln_scale),
             _ => 1.0,
         };
         last_height_m = found.as_ref().map_or(last_height_m, |_| Some(height_m));
@@ -110,9 +106,10 @@ fn shared_by(sighting: &KnownSighting, sharing: f64) -> KnownSighting {
     }
 }
 
-/// How many frames share their errors, given the change of scale from each to the next.
-fn frames_that_share(scale: f64) -> f64 {
-    (SHARED_SCALE / scale.ln().abs().max(1e-3)).max(1.0)
+/// How many frames share their errors, given the change of scale from each to the next, and the change over which errors
+/// stay the same.
+fn frames_that_share(scale: f64, shared_ln_scale: f64) -> f64 {
+    (shared_ln_scale / scale.ln().abs().max(1e-3)).max(1.0)
 }
 
 /// The tracked point against the site's origin, by an estimate that knows nothing of it. `None` where the origin is not

@@ -32,7 +32,9 @@ pub(super) fn known_sightings(
         Ok(Some(fix.sightings.iter().map(|s| known_sighting(t_ns, s)).collect()))
     };
     let tracked: Vec<TrackObservation> = designated.iter().map(drifted).collect();
-    let sighted = sighted_by_map(input, &tracked, &settings.landing, &mut look)?;
+    let landing =
+        LandingConfig { map_shared_ln_scale: settings.map.noise.shared_ln_scale, ..settings.landing.clone() };
+    let sighted = sighted_by_map(input, &tracked, &landing, &mut look)?;
     progress.end();
     summary.counts.insert("map_sightings".into(), sighted.known.len());
     summary.timing_ms.insert("map".into(), start.elapsed().as_secs_f64() * 1e3);

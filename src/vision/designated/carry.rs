@@ -43,7 +43,7 @@ pub fn carry_designated(
         refined: false,
     }];
     let klt = KltConfig { half_px: HALF_PX, ..job.config.klt.clone() };
-    let mut past = Keyframes::new(first, job.sequence.load(chosen[first])?, steps[0]);
+    let mut past = Keyframes::new(first, job.sequence.load(chosen[first])?, steps[0], job.config.designated);
     for (frame, file) in chosen.iter().enumerate().skip(first + 1) {
         let picture = job.sequence.load(file)?;
         let tie = |(from, keyframe): (usize, &Keyframe)| {

@@ -6,6 +6,7 @@
 
 use crate::stats::symmetric;
 use crate::vision::front_end::DesignatedStep;
+use crate::vision::noise_model::DesignatedNoise;
 use image::GrayImage;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
@@ -14,13 +15,6 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 const SCALES: [f64; 4] = [1.05, 1.1, 1.2, 1.3];
 /// Most pictures kept.
 const MOST_KEPT: usize = 40;
-/// 1σ in px that an e-fold change of scale between two tied pictures adds: patches look less and less alike.
-const SCALE_SIGMA_PX: f64 = 0.3;
-/// Share of the variance of a tie that all ties to a picture have in common: that picture's own noise.
-const COMMON: f64 = 0.3;
-/// 1σ in px by which the looks of the ground move over the ground as scale grows e-fold, in each coordinate: finer details
-/// appear, and all past pictures are wrong alike about where the point is among them (fitted to rendered ground).
-const LOOKS_SIGMA_PX: f64 = 0.1;
 
 /// A past picture with its place of the point.
 pub(super) struct Keyframe {
@@ -51,14 +45,15 @@ impl Tie {
         self.linear.determinant().abs().max(1e-12).sqrt()
     }
 
-    fn variance_px2(&self) -> f64 {
-        self.sigma_px.powi(2) + (SCALE_SIGMA_PX * self.scale().ln()).powi(2)
+    fn variance_px2(&self, noise: &DesignatedNoise) -> f64 {
+        self.sigma_px.powi(2) + (noise.scale_sigma_px * self.scale().ln()).powi(2)
     }
 }
 
 /// The pictures kept, oldest first, with the joint covariance of their drifts over the looks of the ground, in squared
 /// pixels of the first picture. That the looks move is no tie's error: it comes on top, and no weights lessen it.
 pub(super) struct Keyframes {
+    noise: DesignatedNoise,
     kept: Vec<Keyframe>,
     drift: DMatrix<f64>,
 }
@@ -74,9 +69,10 @@ pub(super) struct Fused {
 }
 
 impl Keyframes {
-    pub(super) fn new(frame: usize, picture: GrayImage, step: DesignatedStep) -> Self {
+    pub(super) fn new(frame: usize, picture: GrayImage, step: DesignatedStep, noise: DesignatedNoise) -> Self {
         let first_px2 = step.covariance_px2;
         Keyframes {
+            noise,
             kept: vec![Keyframe { frame, picture, step, size: 1.0, first_px2, looks: 0.0 }],
             drift: DMatrix::zeros(1, 1),
         }
@@ -100,14 +96,14 @@ impl Keyframes {
         let size = from.size / newest.scale();
         let n = ties.len();
         let past = DMatrix::from_fn(n, n, |i, j| self.drift[(ties[i].from, ties[j].from)]);
-        let variance = |tie: &Tie| tie.variance_px2() * size * size;
+        let variance = |tie: &Tie| tie.variance_px2(&self.noise) * size * size;
         let total = &past + DMatrix::from_diagonal(&DVector::from_iterator(n, ties.iter().map(variance)));
         let information = total.clone().cholesky()?.solve(&DVector::from_element(n, 1.0));
         let weights = &information / information.sum();
         let least = ties.iter().map(variance).fold(f64::INFINITY, f64::min);
         let last = &self.kept[self.kept.len() - 1];
-        let looks = last.looks + (LOOKS_SIGMA_PX * size).powi(2) * (last.size / size).ln().abs();
-        let drift = (weights.transpose() * &total * &weights)[(0, 0)] + COMMON * least;
+        let looks = last.looks + (self.noise.looks_sigma_px * size).powi(2) * (last.size / size).ln().abs();
+        let drift = (weights.transpose() * &total * &weights)[(0, 0)] + self.noise.common_share * least;
         let with_past = DVector::from_fn(self.kept.len(), |k, _| {
             ties.iter().zip(weights.iter()).map(|(tie, w)| w * self.drift[(tie.from, k)]).sum()
         });
@@ -153,6 +149,7 @@ mod tests {
     /// the last pixel and its predicted variance, both of one coordinate and in px.
     fn flight(run: u64, noise: f64) -> (f64, f64) {
         const STEP: f64 = 1.02;
+        let model = DesignatedNoise::default();
         let mut random = random_stream(run, "designated-keyframes", 0);
         let mut normal = move || -> f64 { StandardNormal.sample(&mut random) };
         let start = DesignatedStep {
@@ -165,12 +162,12 @@ mod tests {
             t_ns_from: 0,
             refined: true,
         };
-        let mut keyframes = Keyframes::new(0, GrayImage::default(), start);
+        let mut keyframes = Keyframes::new(0, GrayImage::default(), start, model);
         // By how much the looks have moved over the ground at each picture, in pixels of the first.
         let mut looks = vec![0.0];
         let size = |frame: usize| STEP.powi(-(frame as i32));
         for frame in 1..=80 {
-            looks.push(looks[frame - 1] + noise * LOOKS_SIGMA_PX * size(frame) * STEP.ln().sqrt() * normal());
+            looks.push(looks[frame - 1] + noise * model.looks_sigma_px * size(frame) * STEP.ln().sqrt() * normal());
             let shared = normal();
             let chosen: Vec<(usize, usize, f64)> =
                 keyframes.chosen().map(|(from, k)| (from, k.frame, k.step.pixel_px.x)).collect();
@@ -184,8 +181,8 @@ mod tests {
                     refined: true,
                 };
                 // What all ties share is as large as the share of the least variance.
-                let (own, common) =
-                    (tie.variance_px2(), COMMON * (0.025f64.powi(2) + (SCALE_SIGMA_PX * STEP.ln()).powi(2)));
+                let least = 0.025f64.powi(2) + (model.scale_sigma_px * STEP.ln()).powi(2);
+                let (own, common) = (tie.variance_px2(&model), model.common_share * least);
                 let error = own.sqrt() * normal() + common.sqrt() * shared;
                 tie.pixel_px.x = scale * x + (looks[frame] - looks[*past]) / size(frame) + noise * error;
                 tie

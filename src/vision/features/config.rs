@@ -2,6 +2,7 @@
 
 use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
+use crate::vision::noise_model::CornerNoise;
 use serde::{Deserialize, Serialize};
 
 /// Harris detection.
@@ -29,6 +30,8 @@ pub struct DetectorConfig {
     pub max_peak_width_px: f64,
     /// Features with a greater predicted 1σ are dropped, px, above 0 (default 0.4).
     pub max_sigma_px: f64,
+    /// How wrong corners are (default: the noise model's).
+    pub noise: CornerNoise,
 }
 
 impl Default for DetectorConfig {
@@ -44,6 +47,7 @@ impl Default for DetectorConfig {
             border_px: 16,
             max_peak_width_px: 2.2,
             max_sigma_px: 0.4,
+            noise: CornerNoise::default(),
         }
     }
 }
@@ -66,6 +70,7 @@ impl DetectorConfig {
         limits::positive("min_distance_px", self.min_distance_px)?;
         limits::count_from("border_px", self.border_px as usize, 4)?;
         limits::positive("max_peak_width_px", self.max_peak_width_px)?;
-        limits::positive("max_sigma_px", self.max_sigma_px)
+        limits::positive("max_sigma_px", self.max_sigma_px)?;
+        self.noise.validate().map_err(|e| e.under("noise"))
     }
 }

@@ -3,13 +3,6 @@
 use super::config::DetectorConfig;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
-/// What changes between two pictures besides noise tilts the response about a peak by this share of its height a px;
-/// fitted to rendered ground seen 3 % nearer and 2° turned.
-const CHANGE_PER_PX: f64 = 0.0145;
-
-/// The peak of the response does not use its window as well as the structure tensor's bound would: ratio of the two.
-const NOISE_FACTOR: f64 = 0.9;
-
 /// A picture's responses, row by row.
 pub(super) struct Grid<'a> {
     pub(super) width: usize,
@@ -55,9 +48,10 @@ impl Grid<'_> {
 
     /// Covariance of a peak in px². Whatever tilts the response moves its peak by the tilt times the spread.
     pub(super) fn covariance_px2(&self, peak: &Peak, config: &DetectorConfig) -> Matrix2<f64> {
-        let by_change = peak.spread_px2 * peak.spread_px2 * CHANGE_PER_PX.powi(2);
+        let by_change = peak.spread_px2 * peak.spread_px2 * config.noise.change_per_px.powi(2);
         let bound = self.tensor_dn2(peak.at, config.block_px).try_inverse();
-        let by_noise = bound.unwrap_or(Matrix2::identity() * f64::INFINITY) * (NOISE_FACTOR * self.noise_dn).powi(2);
+        let by_noise =
+            bound.unwrap_or(Matrix2::identity() * f64::INFINITY) * (config.noise.noise_factor * self.noise_dn).powi(2);
         by_change + by_noise
     }
 

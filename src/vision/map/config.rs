@@ -2,6 +2,7 @@
 
 use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
+use crate::vision::noise_model::{MapNoise, NoiseModel, PatchNoise};
 use serde::{Deserialize, Serialize};
 
 /// Matching of pictures with a map.
@@ -25,17 +26,10 @@ pub struct MapMatchConfig {
     /// Greatest predicted 1σ of a pixel, in px of the halved picture, with which patches are looked for at once; beyond,
     /// the picture is matched by descriptors first, above 0 (default 3).
     pub track_sigma_px: f64,
-    /// 1σ of each coordinate, in px of the halved picture, of what a map and a picture of other distance show differently;
-    /// it comes on top of what the patches say, 0 or more (default 0.1).
-    pub looks_sigma_px: f64,
-    /// 1σ of each coordinate of what all points of a picture have in common, in px of the halved picture, 0 or more
-    /// (default 0.05).
-    pub common_sigma_px: f64,
-    /// How far the corners of a picture stand out above the map's heights on average, in footprints of a pixel of the
-    /// halved picture, 0 or more (default 0.1, fitted to rendered ground: crests catch the eye, hollows do not).
-    pub standing_out: f64,
-    /// 1σ of that, common to all corners of a picture, 0 or more (default 0.1).
-    pub standing_out_sigma: f64,
+    /// How wrong the points are that are found (default: the noise model's).
+    pub noise: MapNoise,
+    /// How wrong the patches are by which they are found (default: the noise model's).
+    pub patch_noise: PatchNoise,
 }
 
 impl Default for MapMatchConfig {
@@ -48,15 +42,19 @@ impl Default for MapMatchConfig {
             fewest_sightings: 8,
             least_agreeing: 0.5,
             track_sigma_px: 3.0,
-            looks_sigma_px: 0.1,
-            common_sigma_px: 0.05,
-            standing_out: 0.1,
-            standing_out_sigma: 0.1,
+            noise: MapNoise::default(),
+            patch_noise: PatchNoise::default(),
         }
     }
 }
 
 impl MapMatchConfig {
+    /// The same settings with every constant of a noise model that concerns them.
+    pub fn with_noise_model(mut self, model: &NoiseModel) -> Self {
+        (self.noise, self.patch_noise) = (model.map, model.patch);
+        self
+    }
+
     /// Checks every range.
     ///
     /// # Errors
@@ -72,9 +70,7 @@ impl MapMatchConfig {
         }
         limits::within("least_agreeing", self.least_agreeing, 0.0, 1.0)?;
         limits::positive("track_sigma_px", self.track_sigma_px)?;
-        limits::at_least("looks_sigma_px", self.looks_sigma_px, 0.0)?;
-        limits::at_least("common_sigma_px", self.common_sigma_px, 0.0)?;
-        limits::at_least("standing_out", self.standing_out, 0.0)?;
-        limits::at_least("standing_out_sigma", self.standing_out_sigma, 0.0)
+        self.noise.validate().map_err(|e| e.under("noise"))?;
+        self.patch_noise.validate().map_err(|e| e.under("patch_noise"))
     }
 }

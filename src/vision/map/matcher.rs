@@ -179,8 +179,8 @@ impl MapMatcher {
             camera.project(&(camera_from_site * nalgebra::Point3::from(raised_m)).coords)
         };
         let rises_px = pixel(footprint_m).zip(pixel(0.0)).map_or(Vector2::zeros(), |(above, on)| above - on);
-        let out_px = rises_px * self.config.standing_out_sigma;
-        Matrix2::identity() * self.config.common_sigma_px.powi(2) + out_px * out_px.transpose()
+        let out_px = rises_px * self.config.noise.standing_out_sigma;
+        Matrix2::identity() * self.config.noise.common_sigma_px.powi(2) + out_px * out_px.transpose()
     }
 
     /// Height of the camera above the ground beneath it, or above the mean ground where the map ends; `None` if it is not

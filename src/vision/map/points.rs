@@ -61,14 +61,14 @@ pub(super) fn find(
 ) -> Result<Vec<FoundPoint>, VisionError> {
     let half_px = half_px(picture);
     let corners = corners(view, config.candidates, half_px)?;
-    let klt = KltConfig { half_px, ..KltConfig::default() };
+    let klt = KltConfig { half_px, noise: config.patch_noise, ..KltConfig::default() };
     let found = track_patches((&view.picture, picture), &corners, &|pixel_px| Some(*pixel_px), &klt)?;
-    let looks_px2 = Matrix2::identity() * config.looks_sigma_px.powi(2);
+    let looks_px2 = Matrix2::identity() * config.noise.looks_sigma_px.powi(2);
     let point = |(corner, found): (&Vector2<f64>, &Option<crate::vision::patch::KltPoint>)| {
         let found = found.as_ref()?;
         let covariance_px2 = found.covariance_px2 + looks_px2;
         let mut meeting = view.meet(corner)?;
-        meeting.point_in_site_m.z += config.standing_out * meeting.footprint_m;
+        meeting.point_in_site_m.z += config.noise.standing_out * meeting.footprint_m;
         Some(FoundPoint { meeting, pixel_px: found.pixel_px, covariance_px2 })
     };
     Ok(corners.iter().zip(&found).filter_map(point).collect())

@@ -43,7 +43,8 @@ pub fn inside_silhouette(picture: &GrayImage, margin_px: u32) -> Result<GrayImag
     Ok(GrayImage::from_raw(picture.width(), picture.height(), bytes).expect("the mask has the picture's size"))
 }
 
-/// 255 where the smoothed picture is brighter than a third of Otsu's threshold: lit ground, shaded slopes included.
+/// 255 where the smoothed picture is brighter than a third of Otsu's threshold: lit ground, shaded slopes included. The
+/// third decides where to look and enters no covariance.
 fn bright(picture: &GrayImage) -> opencv::Result<Mat> {
     let bytes = picture_mat(picture)?;
     let (mut smooth, mut mask) = (Mat::default(), Mat::default());

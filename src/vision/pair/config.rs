@@ -2,6 +2,7 @@
 
 use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
+use crate::vision::noise_model::{BodyNoise, PairNoise};
 use serde::{Deserialize, Serialize};
 
 /// Rotation between two pictures.
@@ -22,10 +23,8 @@ pub struct RotationConfig {
     pub max_angle_rad: f64,
     /// 1σ of a predicted rotation, rad, above 0 (default 0.005).
     pub prior_sigma_rad: f64,
-    /// Variance of errors that vary smoothly over the picture, as a share of the noise's, 0 to 1 (default 0.0007). It grows with
-    /// the square of the translation over the distance: the looks of ground change with the view. 0 where pixels err by
-    /// white noise alone, as simulated ones do.
-    pub smooth_error_share: f64,
+    /// Errors that vary smoothly over the picture (default: the noise model's).
+    pub noise: PairNoise,
     /// Seed of the random samples, 0 to 2⁶³-1 (default 1).
     pub seed: u64,
 }
@@ -40,7 +39,7 @@ impl Default for RotationConfig {
             max_sigma_rad: 0.02,
             max_angle_rad: 1.0,
             prior_sigma_rad: 0.005,
-            smooth_error_share: 0.0007,
+            noise: PairNoise::default(),
             seed: 1,
         }
     }
@@ -59,9 +58,8 @@ pub struct FixedCenterConfig {
     pub rate_gate_rad_s: f64,
     /// …or this fraction of the median, whichever is greater, above 0 (default 0.2).
     pub rate_gate_ratio: f64,
-    /// Variance of errors that vary smoothly over the picture, as a share of the noise's, 0 to 1 (default 0.0018): the light moves
-    /// over a body that turns.
-    pub smooth_error_share: f64,
+    /// Errors that vary smoothly over the picture (default: the noise model's): the light moves over a body that turns.
+    pub noise: BodyNoise,
     /// Whether a patch's stretch from picture to picture is refined by its own grey levels (default true): a body's surface
     /// turns away within a few matches, and patches that are askew err alike.
     pub stretch_patches: bool,
@@ -74,7 +72,7 @@ impl Default for FixedCenterConfig {
             limb_margin_px: 8,
             rate_gate_rad_s: 1f64.to_radians(),
             rate_gate_ratio: 0.2,
-            smooth_error_share: 0.0018,
+            noise: BodyNoise::default(),
             stretch_patches: true,
         }
     }
@@ -93,7 +91,7 @@ impl RotationConfig {
         limits::positive("max_sigma_rad", self.max_sigma_rad)?;
         limits::positive("max_angle_rad", self.max_angle_rad)?;
         limits::positive("prior_sigma_rad", self.prior_sigma_rad)?;
-        limits::within("smooth_error_share", self.smooth_error_share, 0.0, 1.0)?;
+        self.noise.validate().map_err(|e| e.under("noise"))?;
         limits::seed("seed", self.seed)
     }
 }
@@ -107,6 +105,6 @@ impl FixedCenterConfig {
         limits::positive("center_sigma_rad", self.center_sigma_rad)?;
         limits::positive("rate_gate_rad_s", self.rate_gate_rad_s)?;
         limits::positive("rate_gate_ratio", self.rate_gate_ratio)?;
-        limits::within("smooth_error_share", self.smooth_error_share, 0.0, 1.0)
+        self.noise.validate().map_err(|e| e.under("noise"))
     }
 }

@@ -6,17 +6,12 @@ use super::normalized_match::Sight;
 use super::plane::GroundFit;
 use crate::observations::RotationModel;
 use crate::stats::upper_median;
+use crate::vision::noise_model::PairNoise;
 use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
 
-/// Relief shows where the ratio of the variances of its parallax and of the noise, added up over the matches, exceeds this.
+/// Relief shows where the ratio of the variances of its parallax and of the noise, added up over the matches, exceeds this:
+/// a decision between two models, no noise.
 const SHOWING: f64 = 500.0;
-/// By how many times itself the share of smooth errors grows with the square of the translation over the distance, as long
-/// as that is small…
-const GROWTH_BY_VIEW: f64 = 360.0;
-/// …and the square at which it has grown by half of what it can.
-const FAR_VIEW: f64 = 0.03;
-/// Variance of smooth errors over what residuals show (fitted to rendered descents over seven terrains).
-const OVER_LIKELIEST: f64 = 3.3;
 
 /// A motion with its covariance.
 pub(super) struct Motion {
@@ -35,10 +30,10 @@ impl Motion {
     /// Relief is not white noise about a plane: hills are smooth. Where its parallax shows, each point's depth is better
     /// left free, and what the plane would say is not missed. Where it does not show, depths left free would take noise
     /// for parallax.
-    pub(super) fn of(fit: &GroundFit, sights: &[Sight], smooth_error_share: f64) -> Option<Motion> {
+    pub(super) fn of(fit: &GroundFit, sights: &[Sight], noise: &PairNoise) -> Option<Motion> {
         let direction = Unit::try_new(fit.ground.translation, 1e-12);
         let free = direction.filter(|_| relief_over_noise(fit, sights) > SHOWING);
-        free.and_then(|direction| with_free_relief(fit, direction, (sights, smooth_error_share))).or_else(|| {
+        free.and_then(|direction| with_free_relief(fit, direction, (sights, noise))).or_else(|| {
             Some(Motion {
                 rotation: fit.ground.rotation,
                 covariance_rad2: fit.rotation_covariance(sights)?,
@@ -70,7 +65,7 @@ fn relief_over_noise(fit: &GroundFit, sights: &[Sight]) -> f64 {
 fn with_free_relief(
     fit: &GroundFit,
     direction: Unit<Vector3<f64>>,
-    (sights, smooth_error_share): (&[Sight], f64),
+    (sights, noise): (&[Sight], &PairNoise),
 ) -> Option<Motion> {
     const WIDEST_SIGMA: f64 = 4.0;
     let inside = fit.agreeing(sights);
@@ -79,8 +74,8 @@ fn with_free_relief(
     let mut flags = refined.inliers.iter();
     let inliers = fit.inliers.iter().map(|i| *i && *flags.next().unwrap_or(&false)).collect();
     let view = fit.ground.translation.norm_squared();
-    let share = smooth_error_share * (1.0 + GROWTH_BY_VIEW * view / (1.0 + view / FAR_VIEW));
-    let smoothed = refine(&refined, &inside, Size { share, over_likeliest: OVER_LIKELIEST })?;
+    let size = Size { share: noise.share(view), over_likeliest: noise.over_likeliest };
+    let smoothed = refine(&refined, &inside, size)?;
     Some(Motion {
         rotation: smoothed.model.rotation,
         covariance_rad2: smoothed.rotation_covariance_rad2,

@@ -80,7 +80,7 @@ fn judge(
         return refused(PairStatus::Rejected);
     }
     let motion = match choose(fits, sights, hints, config) {
-        Ok(chosen) => Motion::of(&chosen.fit, sights, config.smooth_error_share),
+        Ok(chosen) => Motion::of(&chosen.fit, sights, &config.noise),
         Err(status) => return refused(status),
     };
     let Some(motion) = motion.filter(|m| is_determined(&m.covariance_rad2, config)) else {
@@ -123,6 +123,7 @@ fn choose<'a>(
     all.sort_by(|a, b| off_rad(a).total_cmp(&off_rad(b)));
     let (best, next) = (off_rad(all[0]), off_rad(all[1]));
     // The ground's slope changes little from picture to picture: the nearer normal must be near, and clearly nearer.
+    // A decision between two motions: the angles enter no covariance.
     let clear = best < 0.15 && next > 2.0 * best && next > best + 0.1;
     if clear { Ok(all[0]) } else { Err(PairStatus::Degenerate) }
 }

@@ -46,6 +46,7 @@ pub(super) fn residual(relation: Relation, matrix: &Matrix3<f64>, sight: &Sight)
 /// Extra variance that stills a point within some tens of σ of an epipole: there the direction of its epipolar line is
 /// made of noise, and a fit would steer the epipole by it. (The second-order term of the constraint's error, enlarged.)
 fn near_epipole(matrix: &Matrix3<f64>, sight: &Sight) -> f64 {
+    // A guard, chosen wide: it weighs down the few points about an epipole and says nothing of the noise elsewhere.
     const REACH: f64 = 40.0;
     let inner = matrix.fixed_view::<2, 2>(0, 0);
     let mixed = inner * sight.from_covariance * inner.transpose() * sight.to_covariance;

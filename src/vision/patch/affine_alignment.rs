@@ -5,7 +5,7 @@
 //! of a pixel, but alike wherever the surface curves alike, which no number of matches averages out. So the affine map is
 //! refined with the patch itself (Shi and Tomasi 1994), held near what the matches say.
 
-use super::alignment::{FLOOR_SIGMA_PX, LEAST_VARIANCE_DN2, Refined, SHARED, refine_by_patch};
+use super::alignment::{LEAST_VARIANCE_DN2, Refined, covariance_px2, refine_by_patch};
 use super::config::KltConfig;
 use super::local_affine::Affine;
 use super::sampling::{dot, halved_difference, sample_square, sample_warped, sum};
@@ -18,7 +18,7 @@ const COLUMNS: usize = 10;
 const STRETCH: usize = 2;
 /// Where the gain is among them.
 const GAIN: usize = 6;
-/// 1σ of the stretch that the matches about a point give.
+/// 1σ of the stretch that the matches about a point give: a prior that keeps the stretch determined, no noise.
 const STRETCH_SIGMA: f64 = 0.05;
 /// A stretch further off is no better one.
 const MOST: f64 = 0.1;
@@ -35,19 +35,18 @@ pub fn refine_with_stretch(
     affine: &Affine,
     config: &KltConfig,
 ) -> Option<(Refined, Matrix2<f64>)> {
-    let half_px = config.half_px as usize;
     let mut refined = refine_by_patch(pictures, old_px, affine, config)?;
     let mut linear = affine.linear;
     for _ in 0..ROUNDS {
         let places = (old_px, &refined.pixel_px);
-        let Some(better) = better_fit(pictures, places, &linear, half_px) else { break };
+        let Some(better) = better_fit(pictures, places, &linear, config) else { break };
         let start = Affine::about(old_px, &refined.pixel_px, better.linear);
         match refine_by_patch(pictures, old_px, &start, config) {
             Some(again) if again.correlation >= refined.correlation => (refined, linear) = (again, better.linear),
             _ => break,
         }
     }
-    if let Some(better) = better_fit(pictures, (old_px, &refined.pixel_px), &linear, half_px) {
+    if let Some(better) = better_fit(pictures, (old_px, &refined.pixel_px), &linear, config) {
         refined.pixel_px += better.shift_px;
         refined.covariance_px2 = better.covariance_px2;
     }
@@ -67,8 +66,9 @@ fn better_fit(
     (old, new): (&GrayImage, &GrayImage),
     (old_px, new_px): (&Vector2<f64>, &Vector2<f64>),
     linear: &Matrix2<f64>,
-    half_px: usize,
+    config: &KltConfig,
 ) -> Option<Better> {
+    let (half_px, noise) = (config.half_px as usize, &config.noise);
     let (columns, zero_dn) = columns(old, old_px, &linear.try_inverse()?, half_px)?;
     let mut here = vec![0.0; columns[0].len()];
     sample_square(new, new_px, (half_px, zero_dn), &mut here)?;
@@ -82,7 +82,7 @@ fn better_fit(
     let right = SVector::<f64, COLUMNS>::from_fn(|i, _| dot(&columns[i], &here));
     let free = normal.cholesky()?.solve(&right);
     let misfit_dn2 = ((dot(&here, &here) - free.dot(&right)) / here.len() as f64).max(LEAST_VARIANCE_DN2);
-    let variance_dn2 = SHARED * misfit_dn2;
+    let variance_dn2 = noise.shared_pixels * misfit_dn2;
     for k in STRETCH..GAIN {
         normal[(k, k)] += variance_dn2 / STRETCH_SIGMA.powi(2);
     }
@@ -95,8 +95,11 @@ fn better_fit(
     near.then(|| Better {
         linear: (Matrix2::identity() + change) * linear,
         shift_px,
-        covariance_px2: inverse.fixed_view::<2, 2>(0, 0) * (variance_dn2 / gain.powi(2))
-            + Matrix2::identity() * FLOOR_SIGMA_PX.powi(2),
+        covariance_px2: covariance_px2(
+            &inverse.fixed_view::<2, 2>(0, 0).into_owned(),
+            misfit_dn2 / gain.powi(2),
+            noise,
+        ),
     })
 }
 
@@ -170,7 +173,8 @@ mod tests {
         let (true_linear, middle) = (Matrix2::new(1.0, 0.0, 0.0, 1.0), Vector2::new(48.0, 48.0));
         let (old, new) = pictures(&true_linear);
         let far = true_linear * 1.6;
-        let found = |linear: &Matrix2<f64>| better_fit((&old, &new), (&middle, &middle), linear, HALF_PX);
+        let config = KltConfig { half_px: HALF_PX as u32, ..KltConfig::default() };
+        let found = |linear: &Matrix2<f64>| better_fit((&old, &new), (&middle, &middle), linear, &config);
         assert!(found(&true_linear).is_some());
         let misled = found(&far).map(|better| better.linear);
         assert!(misled.is_none_or(|linear| (linear - true_linear).amax() > 0.1), "{misled:?}");

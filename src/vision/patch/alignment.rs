@@ -4,20 +4,20 @@
 use super::config::KltConfig;
 use super::local_affine::Affine;
 use super::sampling::{dot, halved_difference, sample_square, sample_warped, sum};
+use crate::vision::noise_model::PatchNoise;
 use image::GrayImage;
 use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 
 /// A step shorter than this ends the alignment, px.
 const SETTLED_PX: f64 = 0.01;
 
-/// Residuals of neighbouring pixels share their noise: this many count as one (fitted to rendered ground).
-pub(super) const SHARED: f64 = 2.7;
-
-/// What the ground's own change between two pictures costs, px: the error that is left without noise.
-pub(super) const FLOOR_SIGMA_PX: f64 = 0.02;
-
 /// Least variance of residuals: that of rounding, in squared grey levels.
 pub(super) const LEAST_VARIANCE_DN2: f64 = 1.0 / 12.0;
+
+/// Covariance of a shift by the inverse of its normal matrix (px²/DN²) and the mean squared misfit (DN²).
+pub(super) fn covariance_px2(inverse: &Matrix2<f64>, misfit_dn2: f64, noise: &PatchNoise) -> Matrix2<f64> {
+    inverse * (noise.shared_pixels * misfit_dn2) + Matrix2::identity() * noise.floor_sigma_px.powi(2)
+}
 
 /// A refined pixel.
 pub struct Refined {
@@ -47,7 +47,7 @@ pub fn refine_by_patch(
     let mut here = vec![0.0; template.side * template.side];
     for _ in 0..config.max_iterations {
         sample_square(new, &pixel_px, (template.side / 2, template.zero_dn), &mut here)?;
-        let fit = template.fit(&here)?;
+        let fit = template.fit(&here, &config.noise)?;
         pixel_px += fit.step_px;
         if (pixel_px - start_px).norm() > config.max_off_px || !pixel_px.x.is_finite() {
             return None;
@@ -120,7 +120,7 @@ impl Template {
     }
 
     /// Least squares of the new patch's grey levels: gain · (old patch shifted by the step) + offset.
-    fn fit(&self, here: &[f32]) -> Option<Fit> {
+    fn fit(&self, here: &[f32], noise: &PatchNoise) -> Option<Fit> {
         let [a, b, c] = &self.columns;
         let count = here.len() as f64;
         let right = Vector4::new(dot(a, here), dot(b, here), dot(c, here), sum(here));
@@ -133,8 +133,7 @@ impl Template {
         let misfit_dn2 = ((squares - solution.dot(&right)) / count).max(LEAST_VARIANCE_DN2);
         let step_px = solution.xy() / gain;
         let inverse: Matrix2<f64> = self.inverse.fixed_view::<2, 2>(0, 0).into_owned();
-        let covariance_px2 =
-            inverse * (SHARED * misfit_dn2 / gain.powi(2)) + Matrix2::identity() * FLOOR_SIGMA_PX.powi(2);
+        let covariance_px2 = covariance_px2(&inverse, misfit_dn2 / gain.powi(2), noise);
         (gain > 0.0 && step_px.norm().is_finite()).then_some(Fit { step_px, covariance_px2, correlation })
     }
 }

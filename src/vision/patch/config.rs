@@ -2,6 +2,7 @@
 
 use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
+use crate::vision::noise_model::PatchNoise;
 use serde::{Deserialize, Serialize};
 
 /// Following of patches.
@@ -23,6 +24,8 @@ pub struct KltConfig {
     /// Whether points whose corners are not found again are followed by their patches (default true); about a fixed centre
     /// they are not.
     pub follow_lost: bool,
+    /// How wrong aligned patches are (default: the noise model's).
+    pub noise: PatchNoise,
 }
 
 impl Default for KltConfig {
@@ -35,6 +38,7 @@ impl Default for KltConfig {
             min_correlation: 0.8,
             max_return_px: 0.5,
             follow_lost: true,
+            noise: PatchNoise::default(),
         }
     }
 }
@@ -50,6 +54,7 @@ impl KltConfig {
         limits::count_from("max_iterations", self.max_iterations as usize, 1)?;
         limits::positive("max_off_px", self.max_off_px)?;
         limits::within("min_correlation", self.min_correlation, 0.0, 1.0)?;
-        limits::positive("max_return_px", self.max_return_px)
+        limits::positive("max_return_px", self.max_return_px)?;
+        self.noise.validate().map_err(|e| e.under("noise"))
     }
 }

@@ -57,7 +57,11 @@ pub fn solve_held(sequence: &Sequence, guess_off_rad: f64, center_sigma_rad: f64
     let problem = CenterProblem {
         camera: &sequence.scenes[0].camera,
         center_guess: Unit::new_normalize(guess),
-        config: &FixedCenterConfig { smooth_error_share: 0.0, center_sigma_rad, ..FixedCenterConfig::default() },
+        config: &FixedCenterConfig {
+            noise: BodyNoise { smooth_error_share: 0.0, ..BodyNoise::default() },
+            center_sigma_rad,
+            ..FixedCenterConfig::default()
+        },
         rotation: &RotationConfig::default(),
     };
     rotations_about_center(&pairs, &problem)

@@ -200,7 +200,8 @@ fn nees_with_smooth_errors(share: f64, config: &RotationConfig) -> f64 {
 #[test]
 fn errors_that_vary_smoothly_are_in_the_covariance_up_to_what_pictures_show() {
     let default = RotationConfig::default();
-    let white = RotationConfig { smooth_error_share: 0.0, ..default.clone() };
+    let white =
+        RotationConfig { noise: PairNoise { smooth_error_share: 0.0, ..PairNoise::default() }, ..default.clone() };
     let none = nees_with_smooth_errors(0.0, &white);
     let (usual, absurd) = (nees_with_smooth_errors(0.007, &default), nees_with_smooth_errors(0.3, &default));
     assert!((0.7..1.4).contains(&none) && (0.6..1.6).contains(&usual), "{none}, {usual}");

@@ -17,9 +17,6 @@ use crate::vision::pair::solution::PairSolution;
 use nalgebra::{Matrix2, Matrix2x3, Matrix2x5, Matrix3, Matrix3x2, Matrix5, SMatrix, Unit, Vector2, Vector3};
 use rayon::prelude::*;
 
-/// Variance of smooth errors over what residuals show (fitted to bodies rendered with known motion).
-const OVER_LIKELIEST: f64 = 2.0;
-
 /// Solves all pairs of a sequence; pairs in time order, so that the rate gate can compare neighbours.
 ///
 /// Motion mostly in the picture's plane has a reversed rival with a displaced centre. So several first guesses of the
@@ -142,7 +139,7 @@ fn refine_center(
             gradient += by_center * white.gradient;
         }
     }
-    let spread = information + spread(&by_smooth_error, problem.config.smooth_error_share);
+    let spread = information + spread(&by_smooth_error, problem.config.noise.smooth_error_share);
     let inverse = information.try_inverse().unwrap_or_else(Matrix2::identity);
     let step = -(inverse * gradient);
     let step = step * (0.05 / step.norm().max(0.05));
@@ -223,7 +220,8 @@ fn finish(
     if (fitted.inlier_count() as f64) < enough || !is_near_side(&fitted.model, &view.sights) {
         return refused(PairStatus::Rejected);
     }
-    let size = Size { share: problem.config.smooth_error_share, over_likeliest: OVER_LIKELIEST };
+    let noise = &problem.config.noise;
+    let size = Size { share: noise.smooth_error_share, over_likeliest: noise.over_likeliest };
     let Some(refined) = refine(&fitted, &view.sights, size) else { return refused(PairStatus::Degenerate) };
     let full = observed_information(
         &WithCenter(refined.model),
