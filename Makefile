@@ -10,7 +10,7 @@ MULTIARCH := $(shell uname -m)-linux-gnu
 export OPENCV_INCLUDE_PATHS ?= /usr/include/opencv4,/usr/include/$(MULTIARCH)/opencv4
 export OPENCV_LINK_PATHS ?= /usr/lib/$(MULTIARCH)
 
-.PHONY: demo test accuracy fuzz bench lint packages
+.PHONY: demo test accuracy calibrate calibrate-check fuzz bench lint packages
 
 # Install, build, render and navigate both missions, write out/demo/report.html.
 demo: packages
@@ -24,6 +24,15 @@ test: packages
 # Long accuracy campaigns against their bounds, as a table.
 accuracy: packages
 	cargo test --test main accuracy_ -- --ignored --nocapture --test-threads=1
+
+# The noise model of the front end, fitted to scenes of its own: prints old and new numbers, writes
+# src/vision/noise_model/noise_model.toml. Rendered scenes are kept: run again, it goes on where it was interrupted.
+calibrate: packages
+	OPNAV_CALIBRATION_DATE=$$(date +%F) cargo test --test main calibration::calibrate -- --exact --ignored --nocapture
+
+# How consistent the noise model is on further scenes, which had no part in it (OPNAV_NOISE_MODEL: another one beside it).
+calibrate-check: packages
+	cargo test --test main calibration::judge_on_held_out_scenes -- --exact --ignored --nocapture
 
 # Every reader of files against damaged ones, ten minutes each (FUZZ_SECONDS), from a new seed each time (FUZZ_SEED).
 fuzz: packages

@@ -4,6 +4,8 @@ mod accuracy_bar;
 mod architecture;
 mod campaign;
 #[cfg(all(feature = "render", feature = "vision"))]
+mod calibration;
+#[cfg(all(feature = "render", feature = "vision"))]
 mod cli;
 mod dataset;
 mod evaluation;
