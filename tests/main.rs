@@ -2,9 +2,9 @@
 
 mod accuracy_bar;
 mod architecture;
-mod campaign;
 #[cfg(all(feature = "render", feature = "vision"))]
 mod calibration;
+mod campaign;
 #[cfg(all(feature = "render", feature = "vision"))]
 mod cli;
 mod dataset;

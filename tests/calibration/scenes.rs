@@ -1,6 +1,7 @@
 //! The scenes that are rendered, and where they are kept: an interrupted calibration goes on with those that are there.
 
 use opnav::pipeline::{MapRequest, Silent, SurveyLevel, SynthesizeRequest, make_map, synthesize};
+use opnav::settings::Layers;
 use std::path::{Path, PathBuf};
 
 /// Parts of the way down at which stretches of pictures begin, 1 s apart: from 5.5 km to 50 m.
@@ -94,7 +95,7 @@ impl Set {
             let request = SynthesizeRequest {
                 scenario: self.scenario(scenario),
                 out: out.clone(),
-                overrides: overrides.to_vec(),
+                layers: Layers::from(overrides),
                 frames: None,
                 resume: out.exists(),
                 adapter: None,
@@ -111,7 +112,7 @@ impl Set {
             let level = |metres_per_px, side_m| SurveyLevel { metres_per_px, side_m };
             let levels = vec![level(0.5, 400.0), level(2.0, 1600.0), level(8.0, 8000.0), level(16.0, 20_000.0)];
             let scenario = self.scenario(ground);
-            let request = MapRequest { scenario, out: out.clone(), overrides: vec![], levels, adapter: None };
+            let request = MapRequest { scenario, out: out.clone(), layers: Layers::default(), levels, adapter: None };
             make_map(&request, &Silent).expect("the map is drawn");
         }
         out

@@ -1,7 +1,7 @@
 //! Known points for a descent: each picture matched with a map from where the filter predicts the camera.
 
 use crate::dataset::{GroundMap, ImageSequence};
-use crate::navigation::landing::{KnownSighting, LandingInput, SightedByMap, sighted_by_map};
+use crate::navigation::landing::{KnownSighting, LandingConfig, LandingInput, SightedByMap, sighted_by_map};
 use crate::observations::{PredictedCamera, TrackObservation};
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::progress::Progress;
@@ -32,8 +32,7 @@ pub(super) fn known_sightings(
         Ok(Some(fix.sightings.iter().map(|s| known_sighting(t_ns, s)).collect()))
     };
     let tracked: Vec<TrackObservation> = designated.iter().map(drifted).collect();
-    let landing =
-        LandingConfig { map_shared_ln_scale: settings.map.noise.shared_ln_scale, ..settings.landing.clone() };
+    let landing = LandingConfig { map_shared_ln_scale: settings.map.noise.shared_ln_scale, ..settings.landing.clone() };
     let sighted = sighted_by_map(input, &tracked, &landing, &mut look)?;
     progress.end();
     summary.counts.insert("map_sightings".into(), sighted.known.len());

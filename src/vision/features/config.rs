@@ -1,8 +1,8 @@
 //! Settings of the detector.
 
 use crate::settings::{OutOfRange, limits};
-use schemars::JsonSchema;
 use crate::vision::noise_model::CornerNoise;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Harris detection.

@@ -1,8 +1,8 @@
 //! Parameters of the matching with a map.
 
 use crate::settings::{OutOfRange, limits};
-use schemars::JsonSchema;
 use crate::vision::noise_model::{MapNoise, NoiseModel, PatchNoise};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Matching of pictures with a map.

@@ -51,6 +51,13 @@ impl Default for NoiseModelFile {
     }
 }
 
+impl Default for NoiseModel {
+    /// The numbers of the file that is part of the library.
+    fn default() -> Self {
+        NoiseModelFile::default().constants.map(|constant: &Constant| constant.value)
+    }
+}
+
 impl NoiseModelFile {
     /// Text of the file that is part of the library.
     pub const EMBEDDED: &str = include_str!("noise_model.toml");

@@ -1,6 +1,5 @@
 //! The constants, by the wing that uses them.
 
-use super::file::{Constant, NoiseModelFile};
 use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -209,12 +208,5 @@ impl NoiseModel {
         self.body.validate().map_err(|e| e.under("body"))?;
         self.designated.validate().map_err(|e| e.under("designated"))?;
         self.map.validate().map_err(|e| e.under("map"))
-    }
-}
-
-impl Default for NoiseModel {
-    /// The numbers of the file that is part of the library.
-    fn default() -> Self {
-        NoiseModelFile::default().constants.map(|constant: &Constant| constant.value)
     }
 }

@@ -1,8 +1,8 @@
 //! Settings of a pair's rotation.
 
 use crate::settings::{OutOfRange, limits};
-use schemars::JsonSchema;
 use crate::vision::noise_model::{BodyNoise, PairNoise};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Rotation between two pictures.

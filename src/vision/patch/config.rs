@@ -1,8 +1,8 @@
 //! Settings of patch tracking.
 
 use crate::settings::{OutOfRange, limits};
-use schemars::JsonSchema;
 use crate::vision::noise_model::PatchNoise;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Following of patches.
