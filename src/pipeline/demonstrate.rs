@@ -5,7 +5,7 @@ use super::evaluate::evaluate_result;
 use super::land::{LandRequest, land};
 use super::page::write_page;
 use super::progress::Progress;
-use super::settings::{DemoSettings, TumbleSettings, record};
+use super::settings::{DemoSettings, TumbleSettings, write_settings};
 use super::synthesize::{SynthesizeRequest, synthesize};
 use super::track::{TrackRequest, track};
 use super::tumble::{TumbleRequest, tumble};
@@ -54,7 +54,7 @@ pub fn demonstrate(out: &Path, settings: &DemoSettings, progress: &dyn Progress)
         lines.push(format!("\n{title}"));
         lines.extend(figure_lines(metrics));
     }
-    record(out, "demo", settings)?;
+    write_settings(out, "demo", settings)?;
     let page = out.join("report.html");
     write_page(&[landing.0, tracking.0, best.0, paper.0], &page)?;
     lines.push(format!("\nDone in {:.0} s", start.elapsed().as_secs_f64()));

@@ -2,7 +2,7 @@
 
 use super::error::PipelineError;
 use super::progress::Progress;
-use super::settings::{MonteCarloSettings, record};
+use super::settings::{MonteCarloSettings, write_settings};
 use super::summary::Summary;
 use crate::campaign::{Campaign, run_campaign};
 use crate::dataset::{DatasetError, write_text};
@@ -63,7 +63,7 @@ pub fn montecarlo_landing(
     write_text(&request.out.join("epochs.csv"), &epoch_table(&campaigns))?;
     write_text(&request.out.join("flights.csv"), &flight_table(&campaigns))?;
     write_page(&request.out, &campaigns)?;
-    record(&request.out, "montecarlo landing", &request.settings)?;
+    write_settings(&request.out, "montecarlo landing", &request.settings)?;
     summary.write(&request.out)?;
     Ok(MonteCarloOutcome { campaigns, summary })
 }

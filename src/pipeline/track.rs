@@ -4,7 +4,7 @@ use super::error::PipelineError;
 use super::front_end_files::{write_front_end, write_pictures};
 use super::mask::read_mask;
 use super::progress::Progress;
-use super::settings::{InputSettings, TrackSettings, record};
+use super::settings::{InputSettings, TrackSettings, write_settings};
 use super::summary::{Summary, UnusedFrame};
 use crate::dataset::ImageSequence;
 use crate::observations::FrameStatus;
@@ -53,7 +53,7 @@ pub fn track(request: &TrackRequest, progress: &dyn Progress) -> Result<Summary,
     let start = Instant::now();
     write_pictures(&request.out, &sequence, &front_end)?;
     summary.timing_ms.insert("pictures".into(), start.elapsed().as_secs_f64() * 1e3);
-    record(&request.out, "track", &request.settings)?;
+    write_settings(&request.out, "track", &request.settings)?;
     summary.write(&request.out)?;
     Ok(summary)
 }

@@ -3,7 +3,7 @@
 use super::error::PipelineError;
 use super::front_end_files::{write_front_end, write_pictures};
 use super::progress::Progress;
-use super::settings::{TumbleSettings, record};
+use super::settings::{TumbleSettings, write_settings};
 use super::summary::Summary;
 use super::track::{checked_frames, open, run_front_end};
 use crate::dataset::{ImageSequence, StampedPose, write_tum};
@@ -51,7 +51,7 @@ pub fn tumble(request: &TumbleRequest, progress: &dyn Progress) -> Result<Summar
     describe(&result, &mut summary);
     summary.notes.extend(front_end.center_in_camera.map(|c| center_note(&c)));
     write_result(&request.out, &sequence, (&front_end, &result))?;
-    record(&request.out, "tumble", &request.settings)?;
+    write_settings(&request.out, "tumble", &request.settings)?;
     summary.write(&request.out)?;
     Ok(summary)
 }

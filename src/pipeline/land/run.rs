@@ -12,7 +12,7 @@ use crate::navigation::landing::{
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::front_end_files::{write_front_end, write_pictures};
 use crate::pipeline::progress::Progress;
-use crate::pipeline::settings::{LandSettings, record as write_settings};
+use crate::pipeline::settings::{LandSettings, write_settings};
 use crate::pipeline::summary::Summary;
 use crate::pipeline::track::run_front_end;
 use crate::settings::Settings;

@@ -8,4 +8,4 @@ mod record;
 pub use commands::{DemoSettings, LandInput, LandSettings, MonteCarloSettings, TrackSettings, TumbleSettings};
 pub use input::InputSettings;
 pub use listed::command_settings;
-pub(super) use record::record;
+pub(super) use record::write_settings;

@@ -5,6 +5,10 @@ use crate::settings::{Settings, written};
 use std::path::Path;
 
 /// Writes `settings.toml` into a result folder: every setting of a command, as used.
-pub(in crate::pipeline) fn record(folder: &Path, command: &str, settings: &impl Settings) -> Result<(), DatasetError> {
+pub(in crate::pipeline) fn write_settings(
+    folder: &Path,
+    command: &str,
+    settings: &impl Settings,
+) -> Result<(), DatasetError> {
     write_text(&folder.join("settings.toml"), &written(settings, command))
 }

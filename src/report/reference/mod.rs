@@ -1,6 +1,8 @@
 //! The reference of a scenario's keys and of the commands' settings, made from the types.
 
-mod scenario_keys;
+mod pages;
+mod schema;
+mod section;
 mod text;
 
-pub use scenario_keys::{CommandSettings, scenario_reference, settings_reference};
+pub use pages::{CommandSettings, scenario_reference, settings_reference};

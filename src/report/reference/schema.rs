@@ -1,61 +1,8 @@
-//! The reference of a scenario's keys and of the commands' settings, from the schemas of their types.
+//! Walk through the JSON schema of a settings type: every table once, with the places where it stands.
 
+use super::section::{Book, Row, Section};
 use super::text::{agreed_default, default_text, kind_text, meaning_text, range_text, single_spaced};
 use serde_json::Value;
-
-const SCENARIO: &str = "\
-# Every key of a scenario
-
-Made by `opnav reference scenario` from the types that read a scenario: one section a table, with every path at which the
-table may stand. A key without \"required\" may be left out; unknown keys are refused. Units: SI unless the key says otherwise,
-angles in degrees (`_deg`). A table that is written in part keeps the defaults of its other keys.
-Of a choice one line is written, with the keys below it: `exposure = \"auto\"`, or `exposure.fixed = { … }`.
-`opnav render`, `map` and `bench render` lay `--config FILE`, with the same keys, over the scenario, and `--set key=value` over
-that.
-";
-
-const SETTINGS: &str = "\
-# Every setting of the commands
-
-Made by `opnav reference settings` from the types that hold them: one section a table, with the commands that have it.
-Defaults lie below the file of `--config FILE` (TOML), that below `--set key=value` (`--set front_end.detector.max_features=500`;
-may be repeated), and that below options of their own, such as `--descriptor`. A table that is written in part keeps the other
-values; unknown keys are refused. Units: SI unless the key says otherwise; degrees only in keys that end in `_deg` or `_deg_s`.
-Each command writes `settings.toml` beside its result, with every setting as used; `--config` reads it back.
-`opnav render`, `map` and `bench render` read a scenario, whose keys `opnav reference scenario` lists.
-";
-
-/// The settings of one command.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CommandSettings {
-    /// The command, such as `land`.
-    pub command: &'static str,
-    /// JSON schema of the settings: definitions under `$defs`, descriptions from the types' documentation.
-    pub schema: Value,
-    /// The settings without file and options.
-    pub defaults: Value,
-}
-
-/// A table of keys, or a choice between several.
-struct Section {
-    type_name: String,
-    /// Paths with their brackets: `[sensor]`, `[[cameras]]`.
-    headings: Vec<String>,
-    /// The commands that have it; none for a scenario's.
-    commands: Vec<String>,
-    about: String,
-    rows: Vec<Row>,
-}
-
-/// One key.
-struct Row {
-    key: String,
-    kind: String,
-    /// The default of each command, in the order of the section's commands.
-    defaults: Vec<String>,
-    range: String,
-    meaning: String,
-}
 
 /// An entry of a table or of a choice as the schema has it.
 struct Entry<'a> {
@@ -67,45 +14,21 @@ struct Entry<'a> {
 }
 
 /// Where a table stands, and what its keys hold by default in a command.
-struct Spot<'a> {
+pub(super) struct Spot<'a> {
     path: String,
     is_list: bool,
     node: &'a Value,
     default: Option<&'a Value>,
 }
 
-/// Sections made so far.
-#[derive(Default)]
-struct Book {
-    sections: Vec<Section>,
-}
-
 /// A schema that is gone through.
-struct Source<'a> {
-    command: Option<&'a str>,
-    definitions: &'a Value,
-}
-
-/// The reference in Markdown; `schema` is a JSON schema of the scenario file: definitions under `$defs`,
-/// descriptions from the types' documentation.
-pub fn scenario_reference(schema: &Value) -> String {
-    let mut book = Book::default();
-    Source { command: None, definitions: &schema["$defs"] }.visit(&mut book, Spot::top(schema, None));
-    book.markdown(SCENARIO)
-}
-
-/// The reference of the commands' settings in Markdown. A type that several commands have stands there once.
-pub fn settings_reference(commands: &[CommandSettings]) -> String {
-    let mut book = Book::default();
-    for CommandSettings { command, schema, defaults } in commands {
-        let source = Source { command: Some(command), definitions: &schema["$defs"] };
-        source.visit(&mut book, Spot::top(schema, Some(defaults)));
-    }
-    book.markdown(SETTINGS)
+pub(super) struct Source<'a> {
+    pub(super) command: Option<&'a str>,
+    pub(super) definitions: &'a Value,
 }
 
 impl<'a> Spot<'a> {
-    fn top(node: &'a Value, default: Option<&'a Value>) -> Self {
+    pub(super) fn top(node: &'a Value, default: Option<&'a Value>) -> Self {
         Spot { path: String::new(), is_list: false, node, default }
     }
 
@@ -127,7 +50,7 @@ impl<'a> Spot<'a> {
 
 impl<'a> Source<'a> {
     /// Notes the table at a spot and every table below it; what another command is made of stands with that command.
-    fn visit(&self, book: &mut Book, spot: Spot<'a>) {
+    pub(super) fn visit(&self, book: &mut Book, spot: Spot<'a>) {
         let (type_name, table) = self.target(spot.node);
         let entries = self.entries(table);
         let heading = spot.heading(self.command, table["properties"].is_object());
@@ -240,49 +163,4 @@ fn properties<'a>(table: &'a Value, prefix: &str) -> Vec<Entry<'a>> {
         required: required(key),
     };
     table["properties"].as_object().into_iter().flatten().map(entry).collect()
-}
-
-impl Book {
-    fn markdown(&self, preface: &str) -> String {
-        let sections: Vec<String> = self.sections.iter().map(Section::markdown).collect();
-        format!("{preface}\n{}", sections.join("\n"))
-    }
-}
-
-impl Section {
-    /// Notes another place where the table stands, with its defaults there.
-    fn add(&mut self, heading: String, command: Option<&str>, defaults: Vec<String>) {
-        if !self.headings.contains(&heading) {
-            self.headings.push(heading);
-        }
-        let is_new = command.is_none() || !self.commands.iter().any(|known| Some(known.as_str()) == command);
-        self.commands.extend(command.filter(|_| is_new).map(String::from));
-        if is_new {
-            self.rows.iter_mut().zip(defaults).for_each(|(row, default)| row.defaults.push(default));
-        }
-    }
-
-    fn markdown(&self) -> String {
-        let is_top = self.headings[0].starts_with("`opnav");
-        let of = self.commands.iter().map(|command| format!("`{command}`")).collect::<Vec<_>>().join(", ");
-        let of = if is_top || of.is_empty() { String::new() } else { format!(" Of {of}.") };
-        let headings = self.headings.join(", ");
-        let head = "| key | type, unit | default | range | meaning |\n|---|---|---|---|---|\n";
-        let mut text = format!("## {headings}\n\n{}{of}\n\n{head}", self.about);
-        for row in &self.rows {
-            let Row { key, kind, range, meaning, .. } = row;
-            text += &format!("| `{key}` | {kind} | {} | {range} | {meaning} |\n", row.default(&self.commands));
-        }
-        text
-    }
-}
-
-impl Row {
-    /// The first command's default, and those of others where they differ.
-    fn default(&self, commands: &[String]) -> String {
-        let Some(first) = self.defaults.first() else { return String::new() };
-        let others = self.defaults.iter().zip(commands).filter(|(default, _)| *default != first);
-        let others = others.map(|(default, command)| format!("; in `{command}` {default}"));
-        first.clone() + &others.collect::<String>()
-    }
 }
