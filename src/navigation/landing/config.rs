@@ -141,7 +141,7 @@ impl LandingConfig {
         limits::between("least_parallax_rad", self.least_parallax_rad, 0.0, 1.5)?;
         limits::at_least("gravity_m_s2", self.gravity_m_s2, 0.0)?;
         let rate_rad_s = Vector3::from(self.planet_rate_in_site_rad_s).norm();
-        if !(rate_rad_s < 1e-2) {
+        if rate_rad_s.is_nan() || rate_rad_s >= 1e-2 {
             let cure = "its norm must be below 0.01 rad/s; Mars turns by 7.088e-5";
             return Err(OutOfRange::new("planet_rate_in_site_rad_s", rate_rad_s, cure));
         }

@@ -146,7 +146,7 @@ fn check_first_view(config: &TumblingConfig, mesh: &Mesh, view: &View) -> Result
     }
     let (key, value) = config.distance_key();
     let cure = format!("the camera would be inside the body, whose radius is {:.3} m: move it out", mesh.radius_m());
-    Err(OutOfRange::new(&format!("tumbling.{key}"), value, cure))
+    Err(OutOfRange::new(format!("tumbling.{key}"), value, cure))
 }
 
 /// Checks that the camera does not fly through the body.
