@@ -119,10 +119,20 @@ pub(super) fn range_text(node: &Value) -> Option<String> {
     range_place(&text).map(|(start, end)| text[start..end].to_string())
 }
 
-/// Where a range stands in a text: after the last comma before ` (default …)`, or before the first sentence's end.
+/// Where a range stands in a text: after a comma, and before ` (default …)` or where the sentence or its first part ends.
 fn range_place(text: &str) -> Option<(usize, usize)> {
-    let sentence = text.find(". ").unwrap_or(text.trim_end_matches('.').len());
-    let end = text.find(OPENING).unwrap_or(sentence);
+    let default = text.find(OPENING);
+    let mut ends: Vec<usize> = match default {
+        Some(end) => vec![end],
+        None => [": ", "; ", ". "].iter().flat_map(|mark| text.match_indices(mark)).map(|(end, _)| end).collect(),
+    };
+    ends.sort_unstable();
+    ends.extend(default.is_none().then(|| text.trim_end_matches('.').len()));
+    ends.into_iter().find_map(|end| range_before(text, end))
+}
+
+/// A range between the last comma before `end` and there.
+fn range_before(text: &str, end: usize) -> Option<(usize, usize)> {
     let start = text[..end].rfind(", ")? + 2;
     let words: Vec<&str> = text[start..end].split(' ').collect();
     let is_range = match words.as_slice() {
