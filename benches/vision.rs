@@ -1,4 +1,4 @@
-//! Cost of the front end on a 1024² picture with 2000 features, one thread.
+//! Cost of the front end on 1024² pictures with 1000 and 2000 features, one thread.
 
 #[path = "vision/plain.rs"]
 mod plain;
@@ -36,43 +36,71 @@ fn picture(place: impl Fn(f64, f64) -> (f64, f64)) -> GrayImage {
     })
 }
 
+/// Features of both pictures, and their matches.
+fn matched(
+    pictures: [&GrayImage; 2],
+    (detector, matcher): (&DetectorConfig, &MatcherConfig),
+) -> ([Vec<Feature>; 2], Vec<IndexMatch>) {
+    let features = pictures.map(|p| detect_features(p, None, detector).expect("features"));
+    let rows = [0, 1]
+        .map(|i| describe_features(pictures[i], &features[i], Orientation::Upright, matcher).expect("descriptors"));
+    let described = [0, 1].map(|i| Described { features: &features[i], descriptors: &rows[i] });
+    let found = match_features(described[0], described[1], matcher).expect("matches");
+    (features, found)
+}
+
+/// Each step with so many features, by OpenCV and by our own code.
+fn detection_and_matching(criterion: &mut Criterion, pictures: [&GrayImage; 2], count: usize) {
+    let usual = DetectorConfig { max_features: count, ..DetectorConfig::default() };
+    let ways = [Implementation::Opencv, Implementation::Fused];
+    for (kind, implementation) in DetectorKind::ALL.iter().flat_map(|kind| ways.map(|way| (*kind, way))) {
+        if kind != DetectorKind::Harris && implementation == Implementation::Fused {
+            continue;
+        }
+        let config = DetectorConfig { kind, implementation, ..usual.clone() };
+        criterion.bench_function(&format!("detect {count}, {}, {implementation:?}", kind.word()), |bench| {
+            bench.iter(|| detect_features(black_box(pictures[0]), None, &config));
+        });
+    }
+    let still = |p: &Vector2<f64>| Some((p + Vector2::new(15.0, -4.0)) / 1.03);
+    for descriptor in DescriptorKind::ALL {
+        let config = MatcherConfig { descriptor: *descriptor, ..MatcherConfig::default() };
+        let features = pictures.map(|p| detect_features(p, None, &usual).expect("features"));
+        let rows = [0, 1]
+            .map(|i| describe_features(pictures[i], &features[i], Orientation::Upright, &config).expect("descriptors"));
+        let described = [0, 1].map(|i| Described { features: &features[i], descriptors: &rows[i] });
+        let word = descriptor.word();
+        criterion.bench_function(&format!("describe {count}, {word}"), |bench| {
+            bench.iter(|| describe_features(black_box(pictures[0]), &features[0], Orientation::Upright, &config));
+        });
+        for implementation in ways {
+            let config = MatcherConfig { implementation, ..config.clone() };
+            criterion.bench_function(&format!("match {count} x {count}, {word}, {implementation:?}"), |bench| {
+                bench.iter(|| match_features(black_box(described[0]), described[1], &config));
+            });
+            criterion.bench_function(&format!("match {count} within 60 px, {word}, {implementation:?}"), |bench| {
+                bench.iter(|| match_features_guided(black_box(described[0]), described[1], &still, &config));
+            });
+        }
+    }
+}
+
 fn front_end(criterion: &mut Criterion) {
+    opencv::core::set_num_threads(1).expect("OpenCV takes a number of threads");
     let (a, b) = (picture(|x, y| (x, y)), picture(|x, y| (1.03 * x + 0.03 * y - 15.0, 1.03 * y - 0.03 * x + 4.0)));
+    let pictures = [&a, &b];
+    for count in [1000, 2000] {
+        detection_and_matching(criterion, pictures, count);
+    }
     let config = DetectorConfig { max_features: 2000, ..DetectorConfig::default() };
-    let features = [&a, &b].map(|p| detect_harris(p, None, &config).expect("features"));
-    let bits = [(&a, 0), (&b, 1)].map(|(p, i)| describe_orb(p, &features[i], Orientation::Upright).expect("bits"));
-    let described = [0, 1].map(|i| Described { features: &features[i], descriptors: &bits[i] });
     let matcher = MatcherConfig::default();
-    let found = match_features(described[0], described[1], &matcher);
+    let (features, found) = matched(pictures, (&config, &matcher));
     let pair = MatchedPair {
         from_px: found.iter().map(|m| features[0][m.from].pixel_px).collect(),
         to_px: found.iter().map(|m| features[1][m.to].pixel_px).collect(),
     };
     let sigma_px = vec![0.2; found.len()];
     let camera = Camera::from_fov(1024, 1024, 1.0);
-    println!("{} features, {} matches", features[0].len(), found.len());
-    criterion.bench_function("detect and refine 2000", |bench| {
-        bench.iter(|| detect_harris(black_box(&a), None, &config));
-    });
-    criterion.bench_function("describe 2000", |bench| {
-        bench.iter(|| describe_orb(black_box(&a), &features[0], Orientation::Upright));
-    });
-    criterion.bench_function("match 2000 x 2000", |bench| {
-        bench.iter(|| match_features(black_box(described[0]), described[1], &matcher));
-    });
-    let sums = [(&a, 0), (&b, 1)]
-        .map(|(p, i)| describe_sift(p, &features[i], Orientation::Upright, matcher.sift.patch_px).expect("sums"));
-    let described_by_sift = [0, 1].map(|i| Described { features: &features[i], descriptors: &sums[i] });
-    criterion.bench_function("describe 2000 by SIFT", |bench| {
-        bench.iter(|| describe_sift(black_box(&a), &features[0], Orientation::Upright, matcher.sift.patch_px));
-    });
-    criterion.bench_function("match 2000 x 2000 by SIFT", |bench| {
-        bench.iter(|| match_features(black_box(described_by_sift[0]), described_by_sift[1], &matcher));
-    });
-    let still = |p: &Vector2<f64>| Some((p + Vector2::new(15.0, -4.0)) / 1.03);
-    criterion.bench_function("match 2000 x 2000 within 60 px", |bench| {
-        bench.iter(|| match_features_guided(black_box(described[0]), described[1], &still, &matcher));
-    });
     let points_px: Vec<Vector2<f64>> = features[0].iter().take(1000).map(|f| f.pixel_px).collect();
     let moved = |p: &Vector2<f64>| {
         let q = p + Vector2::new(15.0, -4.0);

@@ -46,12 +46,16 @@ impl TwoViews {
         found.map_or(f64::NAN, |q| q.angle_to(&self.turn).to_degrees())
     }
 
-    fn ours(&self) -> Option<UnitQuaternion<f64>> {
-        let config = DetectorConfig { max_features: 2000, ..DetectorConfig::default() };
-        let features = self.pictures.each_ref().map(|p| detect_harris(p, None, &config).expect("features"));
-        let bits = [0, 1].map(|i| describe_orb(&self.pictures[i], &features[i], Orientation::Upright).expect("bits"));
+    fn ours(&self, implementation: Implementation) -> Option<UnitQuaternion<f64>> {
+        let config = DetectorConfig { max_features: 2000, implementation, ..DetectorConfig::default() };
+        let matcher = MatcherConfig { implementation, ..MatcherConfig::default() };
+        let features = self.pictures.each_ref().map(|p| detect_features(p, None, &config).expect("features"));
+        let describe = |i: usize| {
+            describe_features(&self.pictures[i], &features[i], Orientation::Upright, &matcher).expect("bits")
+        };
+        let bits = [0, 1].map(describe);
         let described = [0, 1].map(|i| Described { features: &features[i], descriptors: &bits[i] });
-        let found = match_features(described[0], described[1], &MatcherConfig::default());
+        let found = match_features(described[0], described[1], &matcher).expect("matches");
         let both = found.iter().map(|m| (&features[0][m.from], &features[1][m.to]));
         let pair = MatchedPair {
             from_px: both.clone().map(|(a, _)| a.pixel_px).collect(),
@@ -102,9 +106,13 @@ pub fn chains(criterion: &mut Criterion, views: &TwoViews) {
     opencv::core::set_num_threads(1).expect("OpenCV takes a number of threads");
     println!(
         "error of the rotation: ours {:.4} deg, plain OpenCV {:.4} deg",
-        views.error_deg(views.ours()),
+        views.error_deg(views.ours(Implementation::Opencv)),
         views.error_deg(views.plain().ok())
     );
-    criterion.bench_function("pictures to rotation, ours", |bench| bench.iter(|| black_box(views).ours()));
+    for implementation in [Implementation::Opencv, Implementation::Fused] {
+        criterion.bench_function(&format!("pictures to rotation, {implementation:?}"), |bench| {
+            bench.iter(|| black_box(views).ours(implementation));
+        });
+    }
     criterion.bench_function("pictures to rotation, plain OpenCV", |bench| bench.iter(|| black_box(views).plain()));
 }

@@ -1,7 +1,7 @@
 //! Arguments that several subcommands share.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use opnav::pipeline::{DescriptorKind, FrontEndConfig, InputSettings};
+use opnav::pipeline::{DescriptorKind, DetectorKind, FrontEndConfig, InputSettings};
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -105,6 +105,9 @@ impl InputArguments {
 /// How pictures are tracked.
 #[derive(Debug, clap::Args)]
 pub struct FrontEndArguments {
+    /// What finds features [default: harris].
+    #[arg(long, value_parser = word::<DetectorKind>())]
+    detector: Option<DetectorKind>,
     /// What describes a feature when it is matched [default: orb].
     #[arg(long, value_parser = word::<DescriptorKind>())]
     descriptor: Option<DescriptorKind>,
@@ -113,6 +116,7 @@ pub struct FrontEndArguments {
 impl FrontEndArguments {
     /// Puts what is given over the settings.
     pub fn apply(&self, config: &mut FrontEndConfig) {
+        put(&mut config.detector.kind, self.detector);
         put(&mut config.matcher.descriptor, self.descriptor);
     }
 }

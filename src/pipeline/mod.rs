@@ -27,7 +27,7 @@ pub use crate::navigation::landmark::Selector;
 pub use crate::navigation::tumbling::{Estimator, TumblingConfig};
 pub use crate::render::StageTime;
 pub use crate::scene::SurveyLevel;
-pub use crate::vision::{DescriptorKind, FrontEndConfig, FrontEndMode};
+pub use crate::vision::{DescriptorKind, DetectorKind, FrontEndConfig, FrontEndMode};
 pub use bench_render::{BenchRenderRequest, RenderTimes, bench_render};
 pub use demonstrate::{DemoOutcome, demonstrate};
 pub use doctor::{Diagnosis, diagnose};

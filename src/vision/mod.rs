@@ -1,7 +1,7 @@
 //! The image front end: the only room that names OpenCV.
 //!
-//! Harris corners are found in every picture, located to a fraction of a pixel, described by ORB (or SIFT) and matched
-//! from picture to picture. Each pair's matches are explained by the model that fits the scene, which gives the rotation between the
+//! Corners (Harris', or those of another [`Detector`]) are found in every picture, located to a fraction of a pixel,
+//! described by ORB (or another [`Descriptor`]) and matched from picture to picture, all of it by OpenCV. Each pair's matches are explained by the model that fits the scene, which gives the rotation between the
 //! pictures with its covariance, and verified matches chain into tracks. Plain results ([`TrackObservation`],
 //! [`RelativeRotation`]) and their files are free of OpenCV and are compiled without the `vision` feature too.
 //!
@@ -55,6 +55,7 @@ mod designated;
 mod error;
 mod features;
 mod front_end;
+mod implementation;
 mod map;
 mod masks;
 mod matching;
@@ -62,19 +63,24 @@ mod noise_model;
 mod opencv_bridge;
 mod pair;
 mod patch;
+mod registry;
 mod sequence;
 mod tracking;
 
 pub use config::{FrontEndConfig, FrontEndMode};
 pub use designated::drift_a_picture_px;
 pub use error::VisionError;
-pub use features::{DetectorConfig, Feature, detect_harris, noise_sigma_dn};
+pub use features::{
+    Detector, DetectorConfig, DetectorKind, Feature, FusedResponse, PeakModel, ResponseConfig, Responses,
+    detect_features, noise_sigma_dn,
+};
 pub use front_end::{DesignatedStep, FrameReport, FrontEnd, RotationPrediction, TrackInputs};
-pub use map::{MapFix, MapMatchConfig, MapMatcher, MapSighting, MapStatus};
+pub use implementation::Implementation;
+pub use map::{MapFeatures, MapFix, MapMatchConfig, MapMatcher, MapSighting, MapStatus};
 pub use masks::{bright_centroid_px, inside_silhouette};
 pub use matching::{
-    Described, Descriptor, DescriptorKind, IndexMatch, MatchLimits, MatcherConfig, OrbDescriptor, Orientation,
-    SiftConfig, SiftDescriptor, describe_orb, describe_sift, match_features, match_features_guided,
+    Described, Descriptor, DescriptorConfig, DescriptorKind, DescriptorNorm, DescriptorSet, IndexMatch, MatchLimits,
+    MatcherConfig, Orientation, Predict, SiftConfig, describe_features, match_features, match_features_guided,
 };
 pub use noise_model::{
     BodyNoise, Constant, CornerNoise, DesignatedNoise, MapNoise, NoiseModel, NoiseModelFile, PairNoise, PatchNoise,

@@ -39,7 +39,8 @@ pub fn map_errors(sequence: &Sequence, map: &Path, group: usize, model: &NoiseMo
         shared_ln_scale: 0.0,
     };
     let config = MapMatchConfig { noise, patch_noise: model.patch, most_sightings: 60, ..MapMatchConfig::default() };
-    let matcher = MapMatcher::new(&read_ground_map(map).expect("a map"), &config).expect("usable settings");
+    let matcher = MapMatcher::new(&read_ground_map(map).expect("a map"), &MapFeatures::default(), &config)
+        .expect("usable settings");
     let of = |index: usize| of_picture(sequence, (index, group), &matcher);
     let all: Vec<_> = (0..sequence.pictures.len().min(MOST_PICTURES)).into_par_iter().filter_map(of).collect();
     let commons = all.iter().map(|(_, common)| *common).collect();

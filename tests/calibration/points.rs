@@ -22,7 +22,7 @@ impl Corners {
         let open = DetectorConfig { max_sigma_px: f64::MAX, ..DetectorConfig::default() };
         let with = |change_per_px: f64, noise_factor: f64| {
             let config = DetectorConfig { noise: CornerNoise { change_per_px, noise_factor }, ..open.clone() };
-            detect_harris(&picture.image, None, &config).expect("OpenCV works")
+            detect_features(&picture.image, None, &config).expect("OpenCV works")
         };
         let covariances = |features: Vec<Feature>| features.iter().map(|f| f.covariance_px2).collect::<Vec<_>>();
         let features = with(model.corner.change_per_px, model.corner.noise_factor);
@@ -97,7 +97,7 @@ fn followed(
 
 fn corner_pixels(picture: &Picture, model: &NoiseModel) -> Vec<Vector2<f64>> {
     let config = DetectorConfig { noise: model.corner, ..DetectorConfig::default() };
-    let features = detect_harris(&picture.image, None, &config).expect("OpenCV works");
+    let features = detect_features(&picture.image, None, &config).expect("OpenCV works");
     let step = features.len().div_ceil(MOST_POINTS).max(1);
     features.iter().step_by(step).map(|f| f.pixel_px).collect()
 }

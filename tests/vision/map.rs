@@ -7,7 +7,7 @@ use opnav::geometry::{Camera, so3};
 use opnav::observations::PredictedCamera;
 use opnav::render::{Detector, Gpu, Renderer, World, map_level};
 use opnav::scene::{RenderConfig, SensorConfig, SunConfig, SurveyLevel, Terrain, TerrainConfig, View};
-use opnav::vision::{MapFix, MapMatchConfig, MapMatcher, MapStatus};
+use opnav::vision::{DescriptorKind, DetectorKind, MapFeatures, MapFix, MapMatchConfig, MapMatcher, MapStatus};
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -70,7 +70,7 @@ fn predicted(pose: &Isometry3<f64>, off_m: f64, off_rad: f64) -> PredictedCamera
 }
 
 fn matcher(map: &GroundMap) -> MapMatcher {
-    MapMatcher::new(map, &MapMatchConfig::default()).expect("usable settings")
+    MapMatcher::new(map, &MapFeatures::default(), &MapMatchConfig::default()).expect("usable settings")
 }
 
 fn sightings(map: &GroundMap, picture: &GrayImage, predicted: &PredictedCamera) -> MapFix {
@@ -141,12 +141,21 @@ fn a_bad_prediction_is_recovered_by_descriptors() {
     let pose = site_from_camera(Vector3::new(40.0, 25.0, 330.0), 6.0, -20.0);
     let picture = picture(&WORLD, &pose, true);
     let bad = PredictedCamera { sigma_position_m: 40.0, sigma_attitude_rad: 0.02, ..predicted(&pose, 45.0, 0.03) };
-    let fix = sightings(&WORLD.map, &picture, &bad);
-    assert_eq!(fix.status, MapStatus::Acquired);
-    let found = fix.camera_from_site.inverse();
-    let off_m = (found.translation.vector - pose.translation.vector).norm();
-    assert!(off_m < 1.5, "{off_m} m off");
-    assert!(median(errors_px(&fix, &pose).iter().map(Vector2::norm).collect()) < 0.4);
+    let mut found = Vec::new();
+    let all = DetectorKind::ALL.iter().flat_map(|kind| DescriptorKind::ALL.iter().map(move |d| (*kind, *d)));
+    for (kind, descriptor) in all {
+        let mut means = MapFeatures::default();
+        (means.detector.kind, means.matcher.descriptor) = (kind, descriptor);
+        let matcher = MapMatcher::new(&WORLD.map, &means, &MapMatchConfig::default()).expect("usable settings");
+        let fix = matcher.sightings(&picture, &camera(), &bad).expect("OpenCV works");
+        assert_eq!(fix.status, MapStatus::Acquired, "{kind:?}, {descriptor:?}");
+        let site_from_camera = fix.camera_from_site.inverse();
+        let off_m = (site_from_camera.translation.vector - pose.translation.vector).norm();
+        assert!(off_m < 1.5, "{kind:?}, {descriptor:?}: {off_m} m off");
+        assert!(median(errors_px(&fix, &pose).iter().map(Vector2::norm).collect()) < 0.4);
+        found.push(fix.camera_from_site);
+    }
+    assert!(found[1..].iter().all(|pose| *pose != found[0]), "the means that are asked for make a difference");
 }
 
 /// Low above the ground a picture shows what no map knows: it is made smaller until it does.
@@ -240,7 +249,9 @@ fn a_map_does_not_depend_on_threads_and_its_errors_are_stated() {
 
 #[test]
 fn settings_out_of_range_are_named() {
-    let refused = |config: MapMatchConfig| MapMatcher::new(&WORLD.map, &config).expect_err("refused").to_string();
+    let refused = |config: MapMatchConfig| {
+        MapMatcher::new(&WORLD.map, &MapFeatures::default(), &config).expect_err("refused").to_string()
+    };
     assert!(
         refused(MapMatchConfig { fewest_sightings: 2, ..MapMatchConfig::default() }).contains("map.fewest_sightings")
     );

@@ -7,7 +7,7 @@ use crate::pipeline::error::PipelineError;
 use crate::pipeline::progress::Progress;
 use crate::pipeline::settings::LandSettings;
 use crate::pipeline::summary::Summary;
-use crate::vision::{DesignatedStep, MapFix, MapMatcher, MapSighting, MapStatus};
+use crate::vision::{DesignatedStep, MapFeatures, MapFix, MapMatcher, MapSighting, MapStatus};
 use std::time::Instant;
 
 /// Sightings of the map's points in every picture of a descent, counted in the summary.
@@ -21,7 +21,8 @@ pub(super) fn known_sightings(
     (progress, summary): (&dyn Progress, &mut Summary),
 ) -> Result<SightedByMap, PipelineError> {
     let start = Instant::now();
-    let matcher = MapMatcher::new(map, &settings.map)?;
+    let means = MapFeatures::of(&settings.front_end);
+    let matcher = MapMatcher::new(map, &means, &settings.map)?;
     progress.begin("matching the map", input.frame_times_ns.len());
     let mut look = |camera: &PredictedCamera, t_ns: i64| -> Result<Option<Vec<KnownSighting>>, PipelineError> {
         progress.advance_to(input.frame_times_ns.partition_point(|time_ns| *time_ns <= t_ns));

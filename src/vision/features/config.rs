@@ -1,14 +1,21 @@
 //! Settings of the detector.
 
+use super::detector_kind::DetectorKind;
+use super::response_config::ResponseConfig;
 use crate::settings::{OutOfRange, limits};
+use crate::vision::implementation::Implementation;
 use crate::vision::noise_model::CornerNoise;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Harris detection.
+/// Detection of features.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DetectorConfig {
+    /// What finds features (default harris).
+    pub kind: DetectorKind,
+    /// Whose code does it (default opencv): `fused` is Harris alone, and faster; for others it means OpenCV's, too.
+    pub implementation: Implementation,
     /// Most features a picture, 1 or more (default 1000).
     pub max_features: usize,
     /// Gaussian smoothing before detection, 1σ in px, above 0 (default 1.0).
@@ -17,9 +24,10 @@ pub struct DetectorConfig {
     pub response_sigma_px: f64,
     /// Side of the window that gathers the structure tensor, px, an odd number, 3 or more (default 5).
     pub block_px: u32,
-    /// Harris' trace factor k, above 0 (default 0.04).
+    /// Harris' trace factor k, above 0 (default 0.04), used with that detector only.
     pub harris_k: f64,
-    /// Least response as a fraction of the strongest, above 0 (default 1e-5); noise is refused by `max_sigma_px`.
+    /// Least response as a fraction of the strongest, above 0 (default 1e-5), of a response that grows with the fourth power
+    /// of the slopes, as Harris' does; noise is refused by `max_sigma_px`.
     pub min_response_ratio: f64,
     /// Least distance between features, px, above 0 (default 5).
     pub min_distance_px: f64,
@@ -37,6 +45,8 @@ pub struct DetectorConfig {
 impl Default for DetectorConfig {
     fn default() -> Self {
         DetectorConfig {
+            kind: DetectorKind::default(),
+            implementation: Implementation::default(),
             max_features: 1000,
             smoothing_sigma_px: 1.0,
             response_sigma_px: 0.8,
@@ -53,6 +63,12 @@ impl Default for DetectorConfig {
 }
 
 impl DetectorConfig {
+    /// The filters about the response.
+    pub(super) fn response(&self) -> ResponseConfig {
+        let DetectorConfig { smoothing_sigma_px, response_sigma_px, block_px, harris_k, .. } = *self;
+        ResponseConfig { smoothing_sigma_px, response_sigma_px, block_px, harris_k }
+    }
+
     /// Checks every range.
     ///
     /// # Errors

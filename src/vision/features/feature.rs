@@ -9,7 +9,7 @@ use nalgebra::{Matrix2, Vector2};
 pub struct Feature {
     /// Pixel (u, v).
     pub pixel_px: Vector2<f64>,
-    /// Harris response (grey levels as fractions of 255).
+    /// Response of the detector (grey levels as fractions of 255).
     pub response: f64,
     /// Predicted 1σ of each coordinate in px: the root of half the covariance's trace.
     pub sigma_px: f64,

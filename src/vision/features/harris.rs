@@ -1,42 +1,61 @@
-//! Harris corners (Harris and Stephens 1988), spread evenly and located to a fraction of a pixel.
+//! Harris corners (Harris and Stephens 1988).
 
-use super::config::DetectorConfig;
-use super::even_spread::spread_evenly;
-use super::feature::Feature;
-use super::harris_response::responses;
-use super::image_noise::noise_sigma_dn;
-use super::local_maxima::local_maxima;
-use super::subpixel_peak::Grid;
-use crate::vision::error::VisionError;
-use image::GrayImage;
+use super::detector::{Detector, FusedResponse, PeakModel};
+use super::harris_response::fused_responses;
+use super::response_config::ResponseConfig;
+use opencv::core::{BORDER_REFLECT_101, Mat};
+use opencv::imgproc::corner_harris;
 
-/// Finds at most `max_features` Harris corners of a picture, in order of response; where `mask` is given, only where it
-/// is not zero.
-///
-/// The picture is smoothed before, and the response after its gathering; the corner is the peak of a quadratic through 3×3
-/// responses. Blunt peaks are left out: what changes between two pictures moves a peak by its width squared.
-///
-/// # Errors
-/// A mask of another size.
-pub fn detect_harris(
-    picture: &GrayImage,
-    mask: Option<&GrayImage>,
-    config: &DetectorConfig,
-) -> Result<Vec<Feature>, VisionError> {
-    if let Some(mask) = mask.filter(|m| m.dimensions() != picture.dimensions()) {
-        let ((mask_width_px, mask_height_px), (width_px, height_px)) = (mask.dimensions(), picture.dimensions());
-        return Err(VisionError::MaskSize { mask_width_px, mask_height_px, width_px, height_px });
+/// The detector whose response is `det − k trace²` of the structure tensor.
+pub(super) struct Harris;
+
+impl Detector for Harris {
+    fn peaks(&self) -> PeakModel {
+        PeakModel { slope_power: 4.0, change_over_harris: 1.0, noise_over_harris: 1.0 }
     }
-    let (width, height) = (picture.width() as usize, picture.height() as usize);
-    let found = responses(picture.as_raw(), (width, height), config);
-    let grid = Grid { width, smooth: &found.smooth, response: &found.response, noise_dn: noise_sigma_dn(picture) };
-    let feature = |at: usize| {
-        let peak = grid.peak(at).filter(|p| p.width_px() <= config.max_peak_width_px)?;
-        Some(Feature::new(&grid, &peak, config)).filter(|f| f.sigma_px <= config.max_sigma_px)
-    };
-    let limits = (config.border_px as usize, config.min_response_ratio as f32);
-    let peaks = local_maxima((grid.response, width), limits, mask);
-    let chosen = spread_evenly(&peaks, (width, height), config.max_features, config.min_distance_px, feature);
-    found.put_back();
-    Ok(chosen)
+
+    fn respond(&self, smooth: &Mat, config: &ResponseConfig, response: &mut Mat) -> opencv::Result<()> {
+        corner_harris(smooth, response, config.block_px as i32, 3, config.harris_k, BORDER_REFLECT_101)
+    }
+
+    fn fused(&self) -> Option<FusedResponse> {
+        Some(fused_responses)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::corner_response::responses_by_opencv;
+    use super::*;
+    use crate::stats::random_stream;
+    use image::GrayImage;
+    use opencv::prelude::*;
+    use rand::RngExt;
+
+    /// Greatest difference of our smoothed picture and response from OpenCV's, each over the greatest value.
+    fn off(size: (u32, u32), ours: &ResponseConfig, theirs: &ResponseConfig) -> [f32; 2] {
+        let mut random = random_stream(3, "picture", 0);
+        let picture = GrayImage::from_fn(size.0, size.1, |_, _| image::Luma([random.random()]));
+        let found = fused_responses(&picture, ours).expect("one pass");
+        let other = responses_by_opencv(&Harris, &picture, theirs).expect("OpenCV filters");
+        let greatest = |ours: &Mat, theirs: &Mat| {
+            let [ours, theirs]: [&[f32]; 2] = [ours, theirs].map(|m| m.data_typed().expect("numbers"));
+            let most = |values: &mut dyn Iterator<Item = f32>| values.fold(0.0, |a, b| f32::max(a, b.abs()));
+            most(&mut ours.iter().zip(theirs).map(|(a, b)| a - b)) / most(&mut theirs.iter().copied())
+        };
+        [greatest(&found.smooth, &other.smooth), greatest(&found.response, &other.response)]
+    }
+
+    #[test]
+    fn the_response_is_opencvs_but_for_rounding() {
+        let usual = ResponseConfig { smoothing_sigma_px: 1.0, response_sigma_px: 0.8, block_px: 5, harris_k: 0.04 };
+        let wide = ResponseConfig { smoothing_sigma_px: 2.1, response_sigma_px: 1.7, block_px: 9, harris_k: 0.06 };
+        let cases = [((97, 64), usual), ((97, 64), wide), ((64, 150), wide), ((5, 7), usual), ((7, 4), wide)];
+        for (size, config) in cases {
+            let [smooth, response] = off(size, &config, &config);
+            assert!(smooth < 1e-5 && response < 2e-5, "{size:?}: {smooth}, {response}");
+        }
+        let [smooth, response] = off((97, 64), &usual, &ResponseConfig { block_px: 7, ..usual });
+        assert!(smooth < 1e-5 && response > 0.1, "{smooth}, {response}");
+    }
 }

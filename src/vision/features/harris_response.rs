@@ -1,61 +1,51 @@
 //! The Harris response of a picture, in one pass over its lines.
 
-use super::config::DetectorConfig;
 use super::line_filter::{Lines, Padded, along, down, gaussian};
-use std::cell::Cell;
+use super::response_config::ResponseConfig;
+use super::responses::Responses;
+use image::GrayImage;
+use opencv::core::{CV_32F, Mat, Size};
+use opencv::prelude::*;
 
-/// A smoothed picture (grey levels / 255) and its smoothed Harris response, row by row.
-#[derive(Default)]
-pub(super) struct Responses {
-    pub(super) smooth: Vec<f32>,
-    pub(super) response: Vec<f32>,
+/// Where the pass writes, row by row.
+struct Planes<'a> {
+    smooth: &'a mut [f32],
+    response: &'a mut [f32],
 }
 
-/// Rooms larger than this are not kept for the next picture, px.
-const MOST_KEPT: usize = 1 << 24;
-
-thread_local! {
-    /// Room of the thread's last picture: fresh memory costs about as much as the filters do.
-    static ROOM: Cell<Responses> = const { Cell::new(Responses { smooth: Vec::new(), response: Vec::new() }) };
-}
-
-impl Responses {
-    /// Gives the room back for the thread's next picture.
-    pub(super) fn put_back(self) {
-        if self.smooth.len() <= MOST_KEPT {
-            ROOM.set(self);
+/// The same as OpenCV's but for rounding: smooths a picture, gathers its structure tensor from Sobel's slopes over a
+/// square, and smooths Harris' response to it.
+pub(super) fn fused_responses(picture: &GrayImage, config: &ResponseConfig) -> opencv::Result<Responses> {
+    let (width, height) = picture.dimensions();
+    let mut found = Responses::take();
+    for plane in [&mut found.smooth, &mut found.response] {
+        if plane.size()? != Size::new(width as i32, height as i32) {
+            *plane = Mat::zeros(height as i32, width as i32, CV_32F)?.to_mat()?;
         }
     }
-
-    fn with_room(count: usize) -> Self {
-        let mut room = ROOM.take();
-        room.smooth.resize(count, 0.0);
-        room.response.resize(count, 0.0);
-        room
-    }
+    let planes = Planes { smooth: found.smooth.data_typed_mut()?, response: found.response.data_typed_mut()? };
+    fill(picture.as_raw(), (width as usize, height as usize), config, planes);
+    Ok(found)
 }
 
-/// Smooths a picture, gathers its structure tensor from Sobel's slopes over a square, and smooths Harris' response to it.
-pub(super) fn responses(grey: &[u8], size: (usize, usize), config: &DetectorConfig) -> Responses {
-    let mut found = Responses::with_room(size.0 * size.1);
+fn fill(grey: &[u8], size: (usize, usize), config: &ResponseConfig, found: Planes) {
     #[cfg(target_arch = "x86_64")]
     {
         #[target_feature(enable = "avx2")]
-        fn with_avx2(grey: &[u8], size: (usize, usize), config: &DetectorConfig, found: &mut Responses) {
+        fn with_avx2(grey: &[u8], size: (usize, usize), config: &ResponseConfig, found: Planes) {
             pass(grey, size, config, found);
         }
         if is_x86_feature_detected!("avx2") {
             // SAFETY: the processor has the instructions that the function is compiled for.
-            unsafe { with_avx2(grey, size, config, &mut found) };
-            return found;
+            unsafe { with_avx2(grey, size, config, found) };
+            return;
         }
     }
-    pass(grey, size, config, &mut found);
-    found
+    pass(grey, size, config, found);
 }
 
 #[inline(always)]
-fn pass(grey: &[u8], size: (usize, usize), config: &DetectorConfig, found: &mut Responses) {
+fn pass(grey: &[u8], size: (usize, usize), config: &ResponseConfig, found: Planes) {
     let (width, height) = size;
     let weights = [config.smoothing_sigma_px, config.response_sigma_px].map(gaussian);
     let [reach_smooth, reach_response] = weights.each_ref().map(|w| w.len() - 1);
@@ -136,63 +126,5 @@ impl Slopes {
 fn harris([uu, uv, vv]: &[Vec<f32>; 3], k: f32, out: &mut [f32]) {
     for (((value, a), b), c) in out.iter_mut().zip(uu).zip(uv).zip(vv) {
         *value = a * c - b * b - k * (a + c) * (a + c);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::stats::random_stream;
-    use crate::vision::opencv_bridge::picture_mat;
-    use image::GrayImage;
-    use opencv::core::{BORDER_REFLECT_101, CV_32F, Mat, Size};
-    use opencv::imgproc::{corner_harris, gaussian_blur};
-    use opencv::prelude::*;
-    use rand::RngExt;
-
-    /// The same by OpenCV.
-    fn by_opencv(picture: &GrayImage, config: &DetectorConfig) -> opencv::Result<(Mat, Mat)> {
-        let (mut grey, mut smooth, mut sharp, mut response) =
-            (Mat::default(), Mat::default(), Mat::default(), Mat::default());
-        picture_mat(picture)?.convert_to(&mut grey, CV_32F, 1.0 / 255.0, 0.0)?;
-        let blur = |from: &Mat, to: &mut Mat, sigma_px: f64| {
-            gaussian_blur(from, to, Size::new(0, 0), sigma_px, sigma_px, BORDER_REFLECT_101)
-        };
-        blur(&grey, &mut smooth, config.smoothing_sigma_px)?;
-        corner_harris(&smooth, &mut sharp, config.block_px as i32, 3, config.harris_k, BORDER_REFLECT_101)?;
-        blur(&sharp, &mut response, config.response_sigma_px)?;
-        Ok((smooth, response))
-    }
-
-    /// Greatest difference from OpenCV's smoothed picture and response, each over the greatest value.
-    fn off(size: (u32, u32), ours: &DetectorConfig, theirs: &DetectorConfig) -> [f32; 2] {
-        let mut random = random_stream(3, "picture", 0);
-        let picture = GrayImage::from_fn(size.0, size.1, |_, _| image::Luma([random.random()]));
-        let found = responses(picture.as_raw(), (size.0 as usize, size.1 as usize), ours);
-        let (smooth, response) = by_opencv(&picture, theirs).expect("OpenCV filters");
-        let greatest = |ours: &[f32], theirs: &Mat| {
-            let theirs: &[f32] = theirs.data_typed().expect("numbers");
-            let most = |values: &mut dyn Iterator<Item = f32>| values.fold(0.0, |a, b| f32::max(a, b.abs()));
-            most(&mut ours.iter().zip(theirs).map(|(a, b)| a - b)) / most(&mut theirs.iter().copied())
-        };
-        [greatest(&found.smooth, &smooth), greatest(&found.response, &response)]
-    }
-
-    #[test]
-    fn the_response_is_opencvs_but_for_rounding() {
-        let usual = DetectorConfig::default();
-        let wide = DetectorConfig {
-            smoothing_sigma_px: 2.1,
-            response_sigma_px: 1.7,
-            block_px: 9,
-            harris_k: 0.06,
-            ..usual.clone()
-        };
-        for (size, config) in [((97, 64), &usual), ((97, 64), &wide), ((5, 7), &usual), ((7, 4), &wide)] {
-            let [smooth, response] = off(size, config, config);
-            assert!(smooth < 1e-5 && response < 2e-5, "{size:?}: {smooth}, {response}");
-        }
-        let [smooth, response] = off((97, 64), &usual, &DetectorConfig { block_px: 7, ..usual.clone() });
-        assert!(smooth < 1e-5 && response > 0.1, "{smooth}, {response}");
     }
 }

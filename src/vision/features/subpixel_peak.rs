@@ -1,6 +1,7 @@
 //! Peaks of a corner response: where exactly, how blunt, and how well known.
 
 use super::config::DetectorConfig;
+use super::detector::PeakModel;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 /// A picture's responses, row by row.
@@ -11,6 +12,7 @@ pub(super) struct Grid<'a> {
     pub(super) response: &'a [f32],
     /// 1σ of the picture's noise in grey levels.
     pub(super) noise_dn: f64,
+    pub(super) model: &'a PeakModel,
 }
 
 /// A peak of the response.
@@ -18,7 +20,7 @@ pub(super) struct Peak {
     at: usize,
     pub(super) pixel_px: Vector2<f64>,
     pub(super) response: f64,
-    /// -response · (second derivatives)⁻¹, px².
+    /// −response · (second derivatives)⁻¹ of the response to the fourth power, px².
     spread_px2: Matrix2<f64>,
 }
 
@@ -42,16 +44,18 @@ impl Grid<'_> {
         let curvature = Matrix2::new(along_u, across, across, along_v);
         let inverse = curvature.try_inverse().filter(|_| along_u < 0.0 && curvature.determinant() > 0.0)?;
         let step = -(inverse * gradient);
-        let peak = Peak { at, pixel_px: whole + step, response: r[(1, 1)], spread_px2: -inverse * r[(1, 1)] };
+        let spread_px2 = -inverse * r[(1, 1)] * self.model.share();
+        let peak = Peak { at, pixel_px: whole + step, response: r[(1, 1)], spread_px2 };
         (step.amax() <= 1.0).then_some(peak)
     }
 
     /// Covariance of a peak in px². Whatever tilts the response moves its peak by the tilt times the spread.
     pub(super) fn covariance_px2(&self, peak: &Peak, config: &DetectorConfig) -> Matrix2<f64> {
-        let by_change = peak.spread_px2 * peak.spread_px2 * config.noise.change_per_px.powi(2);
+        let change_per_px = config.noise.change_per_px * self.model.change_over_harris;
+        let by_change = peak.spread_px2 * peak.spread_px2 * change_per_px.powi(2);
         let bound = self.tensor_dn2(peak.at, config.block_px).try_inverse();
-        let by_noise =
-            bound.unwrap_or(Matrix2::identity() * f64::INFINITY) * (config.noise.noise_factor * self.noise_dn).powi(2);
+        let noise_dn = config.noise.noise_factor * self.model.noise_over_harris * self.noise_dn;
+        let by_noise = bound.unwrap_or(Matrix2::identity() * f64::INFINITY) * noise_dn.powi(2);
         by_change + by_noise
     }
 

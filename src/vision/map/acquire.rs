@@ -1,5 +1,6 @@
 //! The pose of a badly predicted picture: descriptors matched anywhere, and the pose that most of them agree with.
 
+use super::config::MapFeatures;
 use super::fit::{Pointing, fit_pose};
 use super::ground::Ground;
 use super::points::half_px;
@@ -7,8 +8,8 @@ use super::view::MapView;
 use crate::geometry::Camera;
 use crate::observations::PredictedCamera;
 use crate::vision::error::VisionError;
-use crate::vision::features::{DetectorConfig, Feature, detect_harris};
-use crate::vision::matching::{Described, MatcherConfig, OrbDescriptor, Orientation, describe_orb, match_features};
+use crate::vision::features::{DetectorConfig, Feature, detect_features};
+use crate::vision::matching::{Described, DescriptorSet, Orientation, describe_features, match_features};
 use crate::vision::opencv_bridge::{mat_from, points};
 use image::GrayImage;
 use nalgebra::{Isometry3, Matrix3, Translation3, Vector2, Vector3};
@@ -33,16 +34,17 @@ pub(super) fn acquire(
     ground: &Ground,
     (picture, camera): (&GrayImage, &Camera),
     predicted: &PredictedCamera,
+    means: &MapFeatures,
 ) -> Result<Option<Isometry3<f64>>, VisionError> {
-    let (features, descriptors) = described(picture, None)?;
+    let (features, descriptors) = described(picture, None, means)?;
     let here = Described { features: &features, descriptors: &descriptors };
     let mut best: Option<(usize, Isometry3<f64>)> = None;
     for height_sigma in HEIGHTS_SIGMA {
         let raised = raised(&predicted.camera_from_site, height_sigma * predicted.sigma_position_m);
         let view = MapView::draw(ground, camera, &raised);
-        let (map_features, map_descriptors) = described(&view.picture, Some(&view.known))?;
+        let (map_features, map_descriptors) = described(&view.picture, Some(&view.known), means)?;
         let there = Described { features: &map_features, descriptors: &map_descriptors };
-        let matches = match_features(there, here, &MatcherConfig::default());
+        let matches = match_features(there, here, &means.matcher)?;
         let pointing = |m: &crate::vision::matching::IndexMatch| {
             let meeting = view.meet(&map_features[m.from].pixel_px)?;
             let (point_in_site_m, pixel_px) = (meeting.point_in_site_m, features[m.to].pixel_px);
@@ -63,13 +65,15 @@ fn raised(camera_from_site: &Isometry3<f64>, by_m: f64) -> Isometry3<f64> {
     camera_from_site * Translation3::new(0.0, 0.0, -by_m)
 }
 
-type DescribedFeatures = (Vec<Feature>, Vec<Option<OrbDescriptor>>);
-
-fn described(picture: &GrayImage, known: Option<&GrayImage>) -> Result<DescribedFeatures, VisionError> {
+fn described(
+    picture: &GrayImage,
+    known: Option<&GrayImage>,
+    means: &MapFeatures,
+) -> Result<(Vec<Feature>, DescriptorSet), VisionError> {
     let border_px = 2 * half_px(picture);
-    let config = DetectorConfig { max_features: CORNERS, border_px, ..DetectorConfig::default() };
-    let features = detect_harris(picture, known, &config)?;
-    let descriptors = describe_orb(picture, &features, Orientation::Upright)?;
+    let config = DetectorConfig { max_features: CORNERS, border_px, ..means.detector.clone() };
+    let features = detect_features(picture, known, &config)?;
+    let descriptors = describe_features(picture, &features, Orientation::Upright, &means.matcher)?;
     Ok((features, descriptors))
 }
 

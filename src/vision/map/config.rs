@@ -1,9 +1,29 @@
 //! Parameters of the matching with a map.
 
 use crate::settings::{OutOfRange, limits};
+use crate::vision::config::FrontEndConfig;
+use crate::vision::features::DetectorConfig;
+use crate::vision::matching::MatcherConfig;
 use crate::vision::noise_model::{MapNoise, NoiseModel, PatchNoise};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// What finds and matches features of a map and of a picture: the front end's settings. How many features, and how far off
+/// the edge, the map decides itself.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MapFeatures {
+    /// Detection.
+    pub detector: DetectorConfig,
+    /// Description and matching.
+    pub matcher: MatcherConfig,
+}
+
+impl MapFeatures {
+    /// The means of a front end.
+    pub fn of(front_end: &FrontEndConfig) -> Self {
+        MapFeatures { detector: front_end.detector.clone(), matcher: front_end.matcher.clone() }
+    }
+}
 
 /// Matching of pictures with a map.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,7 +1,7 @@
 //! One picture against the map.
 
 use super::acquire::acquire;
-use super::config::MapMatchConfig;
+use super::config::{MapFeatures, MapMatchConfig};
 use super::fit::{Pointing, fit_pose};
 use super::ground::{Ground, Meeting};
 use super::points::{FoundPoint, find, spread};
@@ -30,17 +30,20 @@ const ACQUIRED_SHARE: f64 = 0.002;
 #[derive(Debug, Clone)]
 pub struct MapMatcher {
     ground: Ground,
+    means: MapFeatures,
     config: MapMatchConfig,
 }
 
 impl MapMatcher {
-    /// Prepares a map.
+    /// Prepares a map, whose features are found and matched by the given means.
     ///
     /// # Errors
     /// [`VisionError::OutOfRange`] names the setting at fault.
-    pub fn new(map: &GroundMap, config: &MapMatchConfig) -> Result<Self, VisionError> {
+    pub fn new(map: &GroundMap, means: &MapFeatures, config: &MapMatchConfig) -> Result<Self, VisionError> {
+        means.detector.validate().map_err(|e| e.under("detector"))?;
+        means.matcher.validate().map_err(|e| e.under("matcher"))?;
         config.validate().map_err(|e| e.under("map"))?;
-        Ok(MapMatcher { ground: Ground::new(map), config: config.clone() })
+        Ok(MapMatcher { ground: Ground::new(map), means: means.clone(), config: config.clone() })
     }
 
     /// Points of the map in a picture that was taken near the predicted pose.
@@ -78,7 +81,7 @@ impl MapMatcher {
                 return Ok(fix);
             }
         }
-        let Some(pose) = acquire(&self.ground, (&picture, &camera), predicted)? else {
+        let Some(pose) = acquire(&self.ground, (&picture, &camera), predicted, &self.means)? else {
             return Ok(nothing(MapStatus::Lost));
         };
         let near = PredictedCamera {
@@ -119,7 +122,7 @@ impl MapMatcher {
         if view.covered < LEAST_COVERED {
             return Ok(fix);
         }
-        let found = find(&view, picture, &self.config)?;
+        let found = find(&view, picture, &self.config, &self.means.detector)?;
         (fix.status, fix.found) = (MapStatus::Lost, found.len());
         let Some((pose, agreeing, worse)) = self.agreeing(camera, &found, predicted) else { return Ok(fix) };
         fix.agreeing = agreeing.len();

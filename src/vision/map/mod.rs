@@ -14,6 +14,6 @@ mod points;
 mod result;
 mod view;
 
-pub use config::MapMatchConfig;
+pub use config::{MapFeatures, MapMatchConfig};
 pub use matcher::MapMatcher;
 pub use result::{MapFix, MapSighting, MapStatus};

@@ -7,7 +7,7 @@ use super::result::MapSighting;
 use super::view::MapView;
 use crate::dataset::MapLevel;
 use crate::vision::error::VisionError;
-use crate::vision::features::{DetectorConfig, detect_harris};
+use crate::vision::features::{DetectorConfig, detect_features};
 use crate::vision::patch::{KltConfig, track_patches};
 use image::GrayImage;
 use nalgebra::{Matrix2, Vector2};
@@ -41,9 +41,14 @@ impl FoundPoint {
 }
 
 /// Corners of the drawn map, strongest first, whose patches show known ground.
-pub(super) fn corners(view: &MapView, count: usize, half_px: u32) -> Result<Vec<Vector2<f64>>, VisionError> {
-    let config = DetectorConfig { max_features: count, border_px: half_px + 3, ..DetectorConfig::default() };
-    let features = detect_harris(&view.picture, Some(&view.known), &config)?;
+pub(super) fn corners(
+    view: &MapView,
+    count: usize,
+    half_px: u32,
+    detector: &DetectorConfig,
+) -> Result<Vec<Vector2<f64>>, VisionError> {
+    let config = DetectorConfig { max_features: count, border_px: half_px + 3, ..detector.clone() };
+    let features = detect_features(&view.picture, Some(&view.known), &config)?;
     let margin_px = i64::from(half_px) + 2;
     Ok(features.iter().map(|f| f.pixel_px).filter(|p| view.knows_square(p, margin_px)).collect())
 }
@@ -58,9 +63,10 @@ pub(super) fn find(
     view: &MapView,
     picture: &GrayImage,
     config: &MapMatchConfig,
+    detector: &DetectorConfig,
 ) -> Result<Vec<FoundPoint>, VisionError> {
     let half_px = half_px(picture);
-    let corners = corners(view, config.candidates, half_px)?;
+    let corners = corners(view, config.candidates, half_px, detector)?;
     let klt = KltConfig { half_px, noise: config.patch_noise, ..KltConfig::default() };
     let found = track_patches((&view.picture, picture), &corners, &|pixel_px| Some(*pixel_px), &klt)?;
     let looks_px2 = Matrix2::identity() * config.noise.looks_sigma_px.powi(2);

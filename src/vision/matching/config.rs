@@ -1,37 +1,11 @@
 //! Parameters of description and matching.
 
+use super::descriptor_config::{DescriptorConfig, SiftConfig};
+use super::descriptor_kind::DescriptorKind;
 use crate::settings::{OutOfRange, limits};
+use crate::vision::implementation::Implementation;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// What describes the neighbourhood of a feature.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum DescriptorKind {
-    /// 256 comparisons of grey levels (Rublee et al. 2011): quick.
-    #[default]
-    Orb,
-    /// 128 sums of gradients (Lowe 2004): finds more where light, scale or view change, and takes several times as long.
-    Sift,
-}
-
-/// Description by SIFT and matching of such descriptors.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct SiftConfig {
-    /// Side of the square patch that is described, px, 8 to 128 (default 21).
-    pub patch_px: f64,
-    /// The best distance must be below this fraction of the second best, above 0 to 1 (default 0.84).
-    pub max_ratio: f64,
-    /// Greatest distance of two descriptors, whose length is about 512, above 0 (default 280).
-    pub max_distance: f64,
-}
-
-impl Default for SiftConfig {
-    fn default() -> Self {
-        SiftConfig { patch_px: 21.0, max_ratio: 0.84, max_distance: 280.0 }
-    }
-}
 
 /// Description and matching.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -39,6 +13,8 @@ impl Default for SiftConfig {
 pub struct MatcherConfig {
     /// What describes a feature (default orb).
     pub descriptor: DescriptorKind,
+    /// Whose code matches (default opencv); `fused` is faster.
+    pub implementation: Implementation,
     /// ORB: the best distance must be below this fraction of the second best, above 0 to 1 (default 0.85).
     pub max_ratio: f64,
     /// ORB: greatest Hamming distance of 256 bits, 0 or more (default 64).
@@ -53,6 +29,7 @@ impl Default for MatcherConfig {
     fn default() -> Self {
         MatcherConfig {
             descriptor: DescriptorKind::default(),
+            implementation: Implementation::default(),
             max_ratio: 0.85,
             max_distance_bits: 64,
             sift: SiftConfig::default(),
@@ -61,25 +38,13 @@ impl Default for MatcherConfig {
     }
 }
 
-impl SiftConfig {
-    /// Smaller patches have fewer pixels than a descriptor has sums, which OpenCV's memory does not hold; larger ones take a
-    /// long time and tell no more.
-    pub(super) fn check_patch_px(patch_px: f64) -> Result<(), OutOfRange> {
-        limits::within("patch_px", patch_px, 8.0, 128.0)
-    }
-
-    /// Checks every range.
-    ///
-    /// # Errors
-    /// Names the key.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
-        SiftConfig::check_patch_px(self.patch_px)?;
-        limits::above_to("max_ratio", self.max_ratio, 0.0, 1.0)?;
-        limits::positive("max_distance", self.max_distance)
-    }
-}
-
 impl MatcherConfig {
+    /// What descriptors need of it.
+    pub(super) fn descriptors(&self) -> DescriptorConfig<'_> {
+        let MatcherConfig { max_ratio, max_distance_bits, ref sift, .. } = *self;
+        DescriptorConfig { max_ratio, max_distance_bits, sift }
+    }
+
     /// Checks every range.
     ///
     /// # Errors

@@ -1,6 +1,8 @@
-//! What describes a feature's neighbourhood, and how alike two descriptors are.
+//! What describes a feature's neighbourhood.
 
-use super::config::MatcherConfig;
+use super::descriptor_config::DescriptorConfig;
+use super::descriptor_set::DescriptorSet;
+use crate::vision::error::VisionError;
 use crate::vision::features::Feature;
 use image::GrayImage;
 use nalgebra::Vector2;
@@ -27,19 +29,35 @@ pub struct MatchLimits {
     pub max_distance: f64,
 }
 
-/// A descriptor of a fixed size that can be compared with others of its kind.
-pub trait Descriptor: Copy + Send + Sync {
-    /// Whether vectors of 256 bits compare two of them faster than whole words do.
-    const WIDE: bool;
+/// How far two descriptors lie apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DescriptorNorm {
+    /// The number of bits that differ.
+    Hamming,
+    /// The length of the vector between them, each byte a component.
+    Euclidean,
+}
 
-    /// A whole number that grows with the distance, quick to find.
-    fn difference(&self, other: &Self) -> u32;
+/// Describes the neighbourhoods of features by rows of bytes. A new one is a file of its own and a line in the list of
+/// [`DescriptorKind`](crate::vision::DescriptorKind).
+pub trait Descriptor: Sync {
+    /// One row a feature, in the same order; features too close to the edge have none.
+    ///
+    /// # Errors
+    /// A setting out of range, or OpenCV's refusal.
+    fn describe(
+        &self,
+        picture: &GrayImage,
+        features: &[Feature],
+        orientation: Orientation,
+        config: &DescriptorConfig,
+    ) -> Result<DescriptorSet, VisionError>;
 
-    /// The distance that belongs to a difference.
-    fn distance(difference: u32) -> f64;
+    /// How two rows are compared.
+    fn norm(&self) -> DescriptorNorm;
 
     /// The limits that a configuration sets for this kind.
-    fn limits(config: &MatcherConfig) -> MatchLimits;
+    fn limits(&self, config: &DescriptorConfig) -> MatchLimits;
 }
 
 /// Key points of features for OpenCV, each with the feature's number as its `class_id`.

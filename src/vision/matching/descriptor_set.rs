@@ -1,68 +1,79 @@
-//! Descriptors of all features of a picture, of the kind that is asked for.
+//! Descriptors of the features of a picture.
 
-use super::config::{DescriptorKind, MatcherConfig};
-use super::descriptor::{Descriptor, Orientation};
-use super::matcher::{Described, IndexMatch, match_features, match_features_guided};
-use super::orb::{OrbDescriptor, describe_orb};
-use super::sift::{SiftDescriptor, describe_sift};
-use crate::vision::error::VisionError;
-use crate::vision::features::Feature;
-use image::GrayImage;
-use nalgebra::Vector2;
+use opencv::core::{KeyPoint, Mat, Vector};
+use opencv::prelude::*;
 
-/// One descriptor a feature, where there is one.
-pub enum Descriptions {
-    Orb(Vec<Option<OrbDescriptor>>),
-    Sift(Vec<Option<SiftDescriptor>>),
+/// Descriptors of a picture's features, all of one length: a row of bytes for each feature that has one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DescriptorSet {
+    row_bytes: usize,
+    bytes: Vec<u8>,
+    features: Vec<usize>,
 }
 
-/// A predicted place in the second picture for a pixel of the first.
-pub(super) type Predict<'a> = &'a dyn Fn(&Vector2<f64>) -> Option<Vector2<f64>>;
+impl DescriptorSet {
+    /// An empty set with rows of a length (1 or more).
+    pub fn new(row_bytes: usize) -> Self {
+        DescriptorSet { row_bytes, bytes: Vec::new(), features: Vec::new() }
+    }
 
-impl Descriptions {
-    pub fn find(
-        picture: &GrayImage,
-        features: &[Feature],
-        orientation: Orientation,
-        config: &MatcherConfig,
-    ) -> Result<Self, VisionError> {
-        Ok(match config.descriptor {
-            DescriptorKind::Orb => Descriptions::Orb(describe_orb(picture, features, orientation)?),
-            DescriptorKind::Sift => {
-                Descriptions::Sift(describe_sift(picture, features, orientation, config.sift.patch_px)?)
+    /// Adds the row of a feature, whose index is above those of all before.
+    ///
+    /// # Panics
+    /// A row of another length, or an index out of order.
+    pub fn push(&mut self, feature: usize, row: &[u8]) {
+        assert!(row.len() == self.row_bytes && self.features.last().is_none_or(|last| *last < feature));
+        self.features.push(feature);
+        self.bytes.extend_from_slice(row);
+    }
+
+    /// From OpenCV's rows, whose key points hold their feature's index as `class_id`; only those that `keep` says.
+    pub(super) fn from_opencv<T: opencv::core::DataType>(
+        (key_points, rows): (&Vector<KeyPoint>, &Mat),
+        row_bytes: usize,
+        row: impl Fn(&[T], &mut Vec<u8>) -> bool,
+    ) -> opencv::Result<Self> {
+        let mut order: Vec<(usize, i32)> =
+            key_points.iter().zip(0..).map(|(k, at)| (k.class_id() as usize, at)).collect();
+        order.sort_unstable();
+        let (mut set, mut bytes) = (DescriptorSet::new(row_bytes), Vec::with_capacity(row_bytes));
+        for (feature, at) in order {
+            bytes.clear();
+            if row(rows.at_row::<T>(at)?, &mut bytes) {
+                set.push(feature, &bytes);
             }
-        })
-    }
-}
-
-/// Matches two pictures' features by descriptors of one kind: near to where they are predicted, or anywhere.
-pub fn match_described(
-    (from, from_descriptions): (&[Feature], &Descriptions),
-    (to, to_descriptions): (&[Feature], &Descriptions),
-    predict: Option<Predict>,
-    config: &MatcherConfig,
-) -> Vec<IndexMatch> {
-    match (from_descriptions, to_descriptions) {
-        (Descriptions::Orb(a), Descriptions::Orb(b)) => matched(described(from, a), described(to, b), predict, config),
-        (Descriptions::Sift(a), Descriptions::Sift(b)) => {
-            matched(described(from, a), described(to, b), predict, config)
         }
-        _ => unreachable!("one configuration describes all pictures"),
+        Ok(set)
     }
-}
 
-fn described<'a, D>(features: &'a [Feature], descriptors: &'a [Option<D>]) -> Described<'a, D> {
-    Described { features, descriptors }
-}
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.features.len()
+    }
 
-fn matched<D: Descriptor>(
-    from: Described<D>,
-    to: Described<D>,
-    predict: Option<Predict>,
-    config: &MatcherConfig,
-) -> Vec<IndexMatch> {
-    match predict {
-        Some(predict) => match_features_guided(from, to, predict, config),
-        None => match_features(from, to, config),
+    /// Whether no feature is described.
+    pub fn is_empty(&self) -> bool {
+        self.features.is_empty()
+    }
+
+    /// Bytes of a row.
+    pub fn row_bytes(&self) -> usize {
+        self.row_bytes
+    }
+
+    /// Index of the feature of each row, ascending.
+    pub fn features(&self) -> &[usize] {
+        &self.features
+    }
+
+    /// All rows, one after the other.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// The row of a feature, if it has one.
+    pub fn of_feature(&self, feature: usize) -> Option<&[u8]> {
+        let row = self.features.binary_search(&feature).ok()?;
+        Some(&self.bytes[row * self.row_bytes..][..self.row_bytes])
     }
 }

@@ -6,10 +6,13 @@ use crate::geometry::Camera;
 use crate::observations::FrameStatus;
 use crate::vision::config::{FrontEndConfig, FrontEndMode};
 use crate::vision::error::VisionError;
-use crate::vision::features::{Feature, detect_harris};
+use crate::vision::features::{Feature, detect_features};
 use crate::vision::front_end::FrameReport;
 use crate::vision::masks::{bright_centroid_px, inside_silhouette};
-use crate::vision::matching::{Descriptions, IndexMatch, MatcherConfig, Orientation, match_described};
+use crate::vision::matching::{
+    Described, DescriptorSet, IndexMatch, MatcherConfig, Orientation, describe_features, match_features,
+    match_features_guided,
+};
 use image::GrayImage;
 use nalgebra::{UnitQuaternion, Vector2};
 use std::borrow::Cow;
@@ -22,8 +25,8 @@ pub struct FrameFeatures {
     pub centroid_px: Option<Vector2<f64>>,
     pub report: FrameReport,
     pub(super) picture: GrayImage,
-    upright: OnceLock<Descriptions>,
-    turned: OnceLock<Descriptions>,
+    upright: OnceLock<DescriptorSet>,
+    turned: OnceLock<DescriptorSet>,
 }
 
 impl FrameFeatures {
@@ -38,10 +41,10 @@ impl FrameFeatures {
         let load_ms = milliseconds(start);
         let start = Instant::now();
         let (mask, centroid_px) = where_to_look(job, &picture)?;
-        let features = detect_harris(&picture, mask.as_deref(), &config.detector)?;
+        let features = detect_features(&picture, mask.as_deref(), &config.detector)?;
         let detect_ms = milliseconds(start);
         let start = Instant::now();
-        let upright = Descriptions::find(&picture, &features, Orientation::Upright, &config.matcher)?.into();
+        let upright = describe_features(&picture, &features, Orientation::Upright, &config.matcher)?.into();
         let describe_ms = milliseconds(start);
         let (index, t_ns) = (frame.index, frame.t_ns);
         let enough = features.len() >= config.rotation.min_matches;
@@ -64,20 +67,16 @@ impl FrameFeatures {
     }
 
     /// Features with their descriptors, which are made when they are first asked for: most pairs need none turned.
-    fn described(
-        &self,
-        orientation: Orientation,
-        config: &MatcherConfig,
-    ) -> Result<(&[Feature], &Descriptions), VisionError> {
+    fn described(&self, orientation: Orientation, config: &MatcherConfig) -> Result<Described<'_>, VisionError> {
         let kept = match orientation {
             Orientation::Upright => &self.upright,
             Orientation::Centroid => &self.turned,
         };
         if kept.get().is_none() {
             // Two pairs may come here at once: both make the same.
-            let _ = kept.set(Descriptions::find(&self.picture, &self.features, orientation, config)?);
+            let _ = kept.set(describe_features(&self.picture, &self.features, orientation, config)?);
         }
-        Ok((&self.features, kept.get().expect("it is set just above")))
+        Ok(Described { features: &self.features, descriptors: kept.get().expect("it is set just above") })
     }
 
     /// Drops what only the pairs need.
@@ -128,12 +127,12 @@ pub(super) fn match_pair(
     let matcher = &config.matcher;
     let (from, to) = (from.described(orientation, matcher)?, to.described(orientation, matcher)?);
     if way != Way::Guided {
-        return Ok(match_described(from, to, None, matcher));
+        return match_features(from, to, matcher);
     }
     let Some(rotation) = predicted else { return Ok(Vec::new()) };
     let predict =
         |pixel: &Vector2<f64>| camera.unproject(pixel).and_then(|ray| camera.project(&(rotation * ray.into_inner())));
-    Ok(match_described(from, to, Some(&predict), matcher))
+    match_features_guided(from, to, &predict, matcher)
 }
 
 /// Turn of the picture about its axis.

@@ -6,7 +6,7 @@ use opnav::evaluation::PictureStatistics;
 use opnav::geometry::{Camera, Distortion};
 use opnav::render::{Detector, Gpu, RenderConfig, Renderer, World};
 use opnav::scene::{SensorConfig, Terrain, TerrainConfig, View, sun_angular_radius_rad};
-use opnav::vision::{DetectorConfig, detect_harris};
+use opnav::vision::{DetectorConfig, detect_features};
 use std::path::{Path, PathBuf};
 
 /// Edge of the middle of the pictures that is compared, px.
@@ -77,7 +77,7 @@ fn rendered(renderer: &mut Renderer, terrain: &Terrain, number: usize, height_m:
 fn row(picture: &GrayImage) -> [f64; 4] {
     let statistics = PictureStatistics::of(picture).expect("a picture with texture");
     let detector = DetectorConfig { max_features: 100_000, max_peak_width_px: 1e9, ..DetectorConfig::default() };
-    let features = detect_harris(picture, None, &detector).expect("features").len();
+    let features = detect_features(picture, None, &detector).expect("features").len();
     let PictureStatistics { spectrum_slope, gradient_kurtosis, grey_spread_dn } = statistics;
     [spectrum_slope, gradient_kurtosis, grey_spread_dn, features as f64]
 }

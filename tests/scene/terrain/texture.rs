@@ -2,7 +2,7 @@
 
 use opnav::render::{Detector, Gpu, RenderConfig, Renderer, World};
 use opnav::scene::{DescentScene, Scenario, Scene};
-use opnav::vision::{DetectorConfig, Feature, detect_harris};
+use opnav::vision::{DetectorConfig, Feature, detect_features};
 use std::path::Path;
 
 /// Fewest features in a picture.
@@ -32,7 +32,7 @@ fn features(share_of_descent: &[f64]) -> Vec<(f64, usize, usize)> {
         let view = &camera.views[(share * (camera.views.len() - 1) as f64).round() as usize];
         let frame = renderer.render(view).expect("a picture");
         let picture = detector.expose(&frame, view.t_ns).to_image().expect("a picture").to_luma8();
-        let found = detect_harris(&picture, None, &DetectorConfig::default()).expect("features");
+        let found = detect_features(&picture, None, &DetectorConfig::default()).expect("features");
         let height_m = view.reference_from_camera.translation.vector.z;
         let fewest = fewest_in_cell(&found, [picture.width(), picture.height()]);
         println!("height {height_m:8.1} m: {:5} features, at least {fewest:3} in each cell", found.len());

@@ -38,15 +38,18 @@ struct Count {
     all: f64,
 }
 
-fn count<D: Descriptor>(
-    pair: &RenderedPair,
+/// Matches of a pair's features, described in one way, `shift_px` off the truth.
+fn count(
+    (pair, pictures): (&RenderedPair, &[GrayImage; 2]),
     found: &[Vec<Feature>; 2],
-    descriptors: &[Vec<Option<D>>; 2],
+    (descriptor, orientation): (DescriptorKind, Orientation),
     shift_px: Vector2<f64>,
 ) -> Count {
-    let described = [0, 1].map(|i| Described { features: &found[i], descriptors: &descriptors[i] });
+    let config = MatcherConfig { descriptor, ..MatcherConfig::default() };
+    let rows = [0, 1].map(|i| describe_features(&pictures[i], &found[i], orientation, &config).expect("descriptors"));
+    let described = [0, 1].map(|i| Described { features: &found[i], descriptors: &rows[i] });
     let mut count = Count::default();
-    for m in match_features(described[0], described[1], &MatcherConfig::default()) {
+    for m in match_features(described[0], described[1], &config).expect("matches") {
         let Some(there) = pair.carried(&found[0][m.from].pixel_px) else { continue };
         count.all += 1.0;
         count.right += f64::from((there + shift_px - found[1][m.to].pixel_px).norm() < WRONG_PX);
@@ -71,7 +74,6 @@ fn measure(heights_m: &[f64], shift_px: Vector2<f64>) -> Vec<Bar> {
     let camera = Camera::from_fov(1024, 1024, 90f64.to_radians());
     let mut renderer =
         Renderer::new(&gpu(), World::Terrain(&terrain), &camera, &RenderConfig::default()).expect("a renderer");
-    let patch_px = SiftConfig::default().patch_px;
     let mut bars = Vec::new();
     for step in &STEPS {
         let mut counts = [Count::default(); 2];
@@ -80,13 +82,8 @@ fn measure(heights_m: &[f64], shift_px: Vector2<f64>) -> Vec<Bar> {
             let pair = RenderedPair::new(&mut renderer, &camera, views);
             let pictures = pair.pictures(NOISE_DN, 1);
             let found = pictures.each_ref().map(features);
-            let orb = [0, 1].map(|i| describe_orb(&pictures[i], &found[i], step.orientation).expect("descriptors"));
-            let sift = |i: usize| -> Vec<Option<SiftDescriptor>> {
-                let picture: &GrayImage = &pictures[i];
-                describe_sift(picture, &found[i], step.orientation, patch_px).expect("descriptors")
-            };
-            let sift = [sift(0), sift(1)];
-            let both = [count(&pair, &found, &orb, shift_px), count(&pair, &found, &sift, shift_px)];
+            let both = [DescriptorKind::Orb, DescriptorKind::Sift]
+                .map(|kind| count((&pair, &pictures), &found, (kind, step.orientation), shift_px));
             for (sum, one) in counts.iter_mut().zip(both) {
                 (sum.right, sum.all) = (sum.right + one.right, sum.all + one.all);
             }

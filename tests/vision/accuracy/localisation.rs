@@ -32,19 +32,25 @@ pub const WRONG_PX: f64 = 3.0;
 type Error = (Vector2<f64>, Matrix2<f64>);
 
 pub fn features(picture: &GrayImage) -> Vec<Feature> {
-    detect_harris(picture, None, &DetectorConfig::default()).expect("features")
+    features_by(picture, DetectorKind::default())
+}
+
+fn features_by(picture: &GrayImage, kind: DetectorKind) -> Vec<Feature> {
+    detect_features(picture, None, &DetectorConfig { kind, ..DetectorConfig::default() }).expect("features")
 }
 
 /// Matched corners against the truth.
-fn corner_errors(pair: &RenderedPair, pictures: &[GrayImage; 2]) -> Vec<Error> {
-    let found = pictures.each_ref().map(features);
-    let bits = [0, 1].map(|i| describe_orb(&pictures[i], &found[i], Orientation::Upright).expect("descriptors"));
+fn corner_errors(pair: &RenderedPair, pictures: &[GrayImage; 2], kind: DetectorKind) -> Vec<Error> {
+    let found = pictures.each_ref().map(|picture| features_by(picture, kind));
+    let config = MatcherConfig::default();
+    let bits =
+        [0, 1].map(|i| describe_features(&pictures[i], &found[i], Orientation::Upright, &config).expect("descriptors"));
     let described = [0, 1].map(|i| Described { features: &found[i], descriptors: &bits[i] });
     let error = |m: &IndexMatch| {
         let (from, to) = (&found[0][m.from], &found[1][m.to]);
         Some((to.pixel_px - pair.carried(&from.pixel_px)?, from.covariance_px2 + to.covariance_px2))
     };
-    match_features(described[0], described[1], &MatcherConfig::default()).iter().filter_map(error).collect()
+    match_features(described[0], described[1], &config).expect("matches").iter().filter_map(error).collect()
 }
 
 /// Followed patches against the truth; what is known beforehand is the motion over level ground.
@@ -105,12 +111,17 @@ fn measure(heights_m: &[f64], noises: &[usize], shift_px: Vector2<f64>) -> Vec<B
                 let (nearer, roll_deg, noise_dn) = (100.0 * step.nearer, step.roll_deg, NOISE_DN[*noise]);
                 format!("{way}, {nearer:.0} % nearer, {roll_deg:.0}° roll, noise {noise_dn:.0}")
             };
-            let errors = |way: fn(&RenderedPair, &[GrayImage; 2]) -> Vec<Error>| -> Vec<Error> {
+            let errors = |way: &dyn Fn(&RenderedPair, &[GrayImage; 2]) -> Vec<Error>| -> Vec<Error> {
                 let all = pairs.iter().flat_map(|p| way(p, &p.pictures(NOISE_DN[*noise], 1)));
                 all.map(|(e, c)| (e + shift_px, c)).collect()
             };
-            bars.extend(figures(&what("corners"), errors(corner_errors), step.corners_px.map(|b| b[*noise])));
-            bars.extend(figures(&what("patches"), errors(patch_errors), Some(step.patches_px[*noise])));
+            let bound_px = step.corners_px.map(|b| b[*noise]);
+            for kind in DetectorKind::ALL {
+                let way = if *kind == DetectorKind::Harris { "corners" } else { &format!("{} corners", kind.word()) };
+                let found = errors(&|pair, pictures| corner_errors(pair, pictures, *kind));
+                bars.extend(figures(&what(way), found, bound_px.filter(|_| *kind == DetectorKind::Harris)));
+            }
+            bars.extend(figures(&what("patches"), errors(&patch_errors), Some(step.patches_px[*noise])));
         }
     }
     bars

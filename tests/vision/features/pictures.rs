@@ -14,15 +14,17 @@ fn pair(h: &Matrix3<f64>, noise_dn: f64) -> (GrayImage, GrayImage) {
 }
 
 fn features(picture: &GrayImage) -> Vec<Feature> {
-    detect_harris(picture, None, &DetectorConfig { max_features: 400, ..DetectorConfig::default() }).unwrap()
+    detect_features(picture, None, &DetectorConfig { max_features: 400, ..DetectorConfig::default() }).unwrap()
 }
 
 fn matched(a: &GrayImage, b: &GrayImage, orientation: Orientation) -> (Vec<Feature>, Vec<Feature>, Vec<IndexMatch>) {
     let (fa, fb) = (features(a), features(b));
-    let (da, db) = (describe_orb(a, &fa, orientation).unwrap(), describe_orb(b, &fb, orientation).unwrap());
+    let config = MatcherConfig::default();
+    let describe = |picture, features| describe_features(picture, features, orientation, &config).unwrap();
+    let (da, db) = (describe(a, &fa), describe(b, &fb));
     let from = Described { features: &fa, descriptors: &da };
     let to = Described { features: &fb, descriptors: &db };
-    let found = match_features(from, to, &MatcherConfig::default());
+    let found = match_features(from, to, &config).unwrap();
     (fa, fb, found)
 }
 
@@ -92,10 +94,10 @@ fn dim_ground_gets_its_share_of_features() {
 fn a_mask_is_kept_to_and_must_fit() {
     let whole = picture(SIDE, SIDE, 0.0, 1, |p| p);
     let mask = GrayImage::from_fn(SIDE, SIDE, |u, _| Luma([if u < 150 { 255 } else { 0 }]));
-    let found = detect_harris(&whole, Some(&mask), &DetectorConfig::default()).unwrap();
+    let found = detect_features(&whole, Some(&mask), &DetectorConfig::default()).unwrap();
     assert!(found.len() > 30 && found.iter().all(|f| f.pixel_px.x < 151.5));
     let small = GrayImage::new(10, 10);
-    let error = detect_harris(&whole, Some(&small), &DetectorConfig::default()).unwrap_err();
+    let error = detect_features(&whole, Some(&small), &DetectorConfig::default()).unwrap_err();
     assert!(error.to_string().contains("10x10"));
 }
 
@@ -126,11 +128,11 @@ fn a_prediction_finds_more_matches_and_no_worse_ones() {
     let h = similarity(1.05, 5.0, Vector2::new(190.0, 190.0));
     let (a, b) = pair(&h, 4.0);
     let (fa, fb, free) = matched(&a, &b, Orientation::Upright);
-    let (da, db) =
-        (describe_orb(&a, &fa, Orientation::Upright).unwrap(), describe_orb(&b, &fb, Orientation::Upright).unwrap());
     let config = MatcherConfig { guided_radius_px: 8.0, ..MatcherConfig::default() };
+    let describe = |picture, features| describe_features(picture, features, Orientation::Upright, &config).unwrap();
+    let (da, db) = (describe(&a, &fa), describe(&b, &fb));
     let (from, to) = (Described { features: &fa, descriptors: &da }, Described { features: &fb, descriptors: &db });
-    let guided = match_features_guided(from, to, &|p| Some(apply(&h, *p)), &config);
+    let guided = match_features_guided(from, to, &|p| Some(apply(&h, *p)), &config).unwrap();
     let right = |found: &[IndexMatch]| {
         found.iter().filter(|m| (apply(&h, fa[m.from].pixel_px) - fb[m.to].pixel_px).norm() < 2.0).count()
     };

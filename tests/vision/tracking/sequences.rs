@@ -150,20 +150,25 @@ fn black_pictures_and_a_camera_at_rest_are_outcomes() {
 fn the_result_is_the_same_at_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let sequence = write(folder.path(), (0..10).map(frame));
-    let run = |threads: usize, descriptor: DescriptorKind| {
+    let run = |threads: usize, (detector, descriptor): (DetectorKind, DescriptorKind)| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let inputs = TrackInputs { rotation_prior: Some(&gyro), ..TrackInputs::default() };
         let mut config = config();
-        config.matcher.descriptor = descriptor;
+        (config.detector.kind, config.matcher.descriptor) = (detector, descriptor);
         without_times(pool.install(|| track_sequence(&sequence, &config, &inputs, &|_| ()).unwrap()))
     };
-    let [orb, sift] = [DescriptorKind::Orb, DescriptorKind::Sift].map(|descriptor| {
-        let alone = run(1, descriptor);
-        assert_eq!(alone, run(3, descriptor), "{descriptor:?}");
+    let ways = [
+        (DetectorKind::Harris, DescriptorKind::Orb),
+        (DetectorKind::Harris, DescriptorKind::Sift),
+        (DetectorKind::ShiTomasi, DescriptorKind::Orb),
+    ];
+    let [usual, sift, shi_tomasi] = ways.map(|way| {
+        let alone = run(1, way);
+        assert_eq!(alone, run(3, way), "{way:?}");
+        assert!(alone.rotations.iter().all(|r| r.status == PairStatus::Ok), "{way:?}");
         alone
     });
-    assert_ne!(orb, sift);
-    assert!(sift.rotations.iter().all(|r| r.status == PairStatus::Ok));
+    assert!(usual != sift && usual != shi_tomasi);
 }
 
 /// A picture that rolls by a sixth of a turn from one to the next, which only turned descriptors follow.

@@ -1,0 +1,21 @@
+//! Descriptors of the features of a picture, by the descriptor that is asked for.
+
+use super::config::MatcherConfig;
+use super::descriptor::Orientation;
+use super::descriptor_set::DescriptorSet;
+use crate::vision::error::VisionError;
+use crate::vision::features::Feature;
+use image::GrayImage;
+
+/// Describes features of a picture with the descriptor that is asked for.
+///
+/// # Errors
+/// A setting out of range, or OpenCV's refusal.
+pub fn describe_features(
+    picture: &GrayImage,
+    features: &[Feature],
+    orientation: Orientation,
+    config: &MatcherConfig,
+) -> Result<DescriptorSet, VisionError> {
+    config.descriptor.part().describe(picture, features, orientation, &config.descriptors())
+}
