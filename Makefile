@@ -5,6 +5,8 @@ BUILD_PACKAGES := libopencv-calib3d-dev libopencv-video-dev clang mesa-vulkan-dr
 # The tests open the report in a headless browser. Ubuntu packages none (only a snap): there, that one test is skipped.
 TEST_PACKAGES := $(shell . /etc/os-release 2>/dev/null; [ "$$ID" = debian ] && echo chromium)
 
+EXAMPLES := $(basename $(notdir $(sort $(wildcard examples/*.rs))))
+
 # OpenCV's folders on Debian and Ubuntu, whatever the architecture; a variable that is already set wins.
 MULTIARCH := $(shell uname -m)-linux-gnu
 export OPENCV_INCLUDE_PATHS ?= /usr/include/opencv4,/usr/include/$(MULTIARCH)/opencv4
@@ -16,10 +18,11 @@ export OPENCV_LINK_PATHS ?= /usr/lib/$(MULTIARCH)
 demo: packages
 	cargo run -- demo --out out/demo
 
-# Install, build, run every test.
+# Install, build, run every test and every example.
 test: packages
 	@.ci/install $(TEST_PACKAGES)
 	cargo test
+	@for example in $(EXAMPLES); do echo "== $$example"; cargo run --quiet --example $$example || exit 1; done
 
 # Long accuracy campaigns against their bounds, as a table.
 accuracy: packages
@@ -42,13 +45,15 @@ fuzz: packages
 bench: packages
 	cargo bench
 
-# Formatting, lints and documentation, with and without the rooms that need a GPU driver or OpenCV.
+# Formatting, lints and documentation: everything, and the feature sets that leave rooms out.
 lint: packages
 	cargo fmt --all --check
 	cargo clippy --all-targets -- -D warnings
 	cargo clippy --all-targets --no-default-features -- -D warnings
-	cargo clippy --all-targets --no-default-features --features render -- -D warnings
-	cargo clippy --all-targets --no-default-features --features vision -- -D warnings
+	cargo clippy --all-targets --no-default-features --features render,cli -- -D warnings
+	cargo clippy --all-targets --no-default-features --features vision,cli -- -D warnings
+	cargo clippy --no-default-features --features scene -- -D warnings
+	cargo clippy --no-default-features --features report,cli -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps
 
 packages:

@@ -31,22 +31,42 @@
 //!
 //! # Features
 //!
-//! `render` (wgpu) and `vision` (OpenCV) are on by default and only leave rooms out; the filters build with neither.
+//! All are on by default; each only brings rooms in, and none changes a number.
+//!
+//! | feature | brings | through |
+//! |---|---|---|
+//! | none | geometry, data sets, observations, navigation, evaluation | |
+//! | `scene` | scenarios, terrain, bodies, light; campaigns | anise, tobj, ply-rs-bw, stl_io, schemars |
+//! | `render` | the renderer, with `scene` | wgpu: a Vulkan, Metal or DirectX 12 driver |
+//! | `vision` | the image front end | OpenCV 4 |
+//! | `report` | plots and the page | plotters, maud |
+//! | `cli` | the program `opnav`, with the subcommands that the others make possible | clap, indicatif |
+//!
+//! As a library for filters alone: `opnav = { version = "0.1", default-features = false }`.
+//!
+//! # Where to begin
+//!
+//! The four programs in `examples/`, then the [`guide`] with its walks through the rooms, then the room in question.
 #![warn(missing_docs)]
 
+#[cfg(feature = "scene")]
 pub mod campaign;
 pub mod dataset;
 pub mod evaluation;
 pub mod geometry;
 pub mod navigation;
 pub mod observations;
-#[cfg(all(feature = "render", feature = "vision"))]
 pub mod pipeline;
 #[cfg(feature = "render")]
 pub mod render;
 pub mod report;
+#[cfg(feature = "scene")]
 pub mod scene;
 pub mod settings;
 pub mod stats;
 #[cfg(feature = "vision")]
 pub mod vision;
+
+#[cfg(all(feature = "render", feature = "vision", feature = "report"))]
+#[doc = include_str!("guide.md")]
+pub mod guide {}

@@ -5,6 +5,7 @@ mod consistency;
 mod landing;
 mod metrics;
 mod pairs;
+#[cfg(feature = "scene")]
 mod picture;
 mod refusals;
 mod tracks;

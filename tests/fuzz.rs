@@ -3,13 +3,16 @@
 //! `cargo test` runs some hundreds of files a reader, always the same ones; `make fuzz` goes on for ten minutes a reader
 //! (`FUZZ_SECONDS`) with the seed in `FUZZ_SEED`. A file that breaks a reader is kept, and its place is printed.
 
+#[cfg(feature = "scene")]
 mod bodies;
 mod cameras;
 mod campaign;
+#[cfg(feature = "scene")]
 mod found;
 mod mutation;
 mod pictures;
 mod results;
+#[cfg(feature = "scene")]
 mod scenarios;
 mod tables;
 

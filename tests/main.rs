@@ -1,11 +1,13 @@
 //! One test binary, so that it links once: a module a room, and in it a module a wing, as in `src`.
 
+#[cfg(any(feature = "scene", feature = "vision"))]
 mod accuracy_bar;
 mod architecture;
 #[cfg(all(feature = "render", feature = "vision"))]
 mod calibration;
+#[cfg(feature = "scene")]
 mod campaign;
-#[cfg(all(feature = "render", feature = "vision"))]
+#[cfg(all(feature = "cli", feature = "render", feature = "report", feature = "vision"))]
 mod cli;
 mod dataset;
 mod evaluation;
@@ -17,9 +19,11 @@ mod observations;
 mod pipeline;
 #[cfg(feature = "render")]
 mod render;
+#[cfg(feature = "report")]
 mod report;
+#[cfg(feature = "scene")]
 mod scene;
-#[cfg(all(feature = "render", feature = "vision"))]
+#[cfg(feature = "settings")]
 mod settings;
 mod stats;
 #[cfg(feature = "vision")]

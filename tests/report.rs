@@ -3,5 +3,6 @@
 mod browser;
 mod page;
 mod plot;
+#[cfg(feature = "scene")]
 mod reference;
 mod sample;

@@ -24,8 +24,11 @@ pub fn run(arguments: &Arguments) -> ExitCode {
 
 fn print(diagnosis: &Diagnosis) {
     println!("opnav    {}", diagnosis.opnav_version);
-    println!("OpenCV   {}", diagnosis.opencv_version);
+    println!("OpenCV   {}", diagnosis.opencv_version.as_deref().unwrap_or("not in this build: the feature `vision`"));
     println!("threads  {}", diagnosis.threads);
+    #[cfg(not(feature = "render"))]
+    println!("adapter  not in this build: the feature `render`");
+    #[cfg(feature = "render")]
     for adapter in &diagnosis.adapters {
         let chosen = if diagnosis.default_adapter.as_ref() == Some(&adapter.name) { "  (default)" } else { "" };
         println!("adapter  {} [{}, {}] {}{chosen}", adapter.name, adapter.backend, adapter.device_type, adapter.driver);

@@ -13,6 +13,7 @@ mod landing_epochs;
 mod metrics;
 mod named_table;
 mod pairs;
+#[cfg(feature = "scene")]
 mod picture;
 mod spread;
 mod summary;
@@ -27,6 +28,7 @@ pub use error::EvaluationError;
 pub use evaluate::evaluate;
 pub use metrics::{Figure, Metrics, Series, Verdict};
 pub use named_table::NamedTable;
+#[cfg(feature = "scene")]
 pub use picture::PictureStatistics;
 pub use spread::{median, percentile, root_mean_square};
 pub use summary::{Mission, Summary};

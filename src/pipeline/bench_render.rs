@@ -1,8 +1,8 @@
 //! How long a scenario's pictures take, stage by stage.
 
 use super::error::PipelineError;
+use super::frame_range::checked_frames;
 use super::progress::Progress;
-use super::track::checked_frames;
 use crate::render::{Gpu, Renderer, StageTime};
 use crate::scene::Scenario;
 use crate::settings::Layers;

@@ -4,15 +4,20 @@ use crate::dataset::DatasetError;
 use crate::evaluation::EvaluationError;
 use crate::navigation::landing::LandingError;
 use crate::navigation::tumbling::TumblingError;
+#[cfg(feature = "render")]
 use crate::render::RenderError;
+#[cfg(feature = "report")]
 use crate::report::ReportError;
+#[cfg(feature = "scene")]
 use crate::scene::SceneError;
 use crate::settings::{OutOfRange, SettingsError};
+#[cfg(feature = "vision")]
 use crate::vision::VisionError;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Why a story could not be told to its end. Every message names the file or key and the cure.
+/// Why a story could not be told to its end. Every message names the file or key and the cure. Rooms that the build leaves
+/// out have no variant.
 #[derive(Debug, Error)]
 pub enum PipelineError {
     /// Settings that cannot be read.
@@ -25,12 +30,15 @@ pub enum PipelineError {
     #[error(transparent)]
     Dataset(#[from] DatasetError),
     /// The scenario.
+    #[cfg(feature = "scene")]
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// The renderer.
+    #[cfg(feature = "render")]
     #[error(transparent)]
     Render(#[from] RenderError),
     /// The image front end.
+    #[cfg(feature = "vision")]
     #[error(transparent)]
     Vision(#[from] VisionError),
     /// The landing estimator.
@@ -43,6 +51,7 @@ pub enum PipelineError {
     #[error(transparent)]
     Evaluation(#[from] EvaluationError),
     /// The page.
+    #[cfg(feature = "report")]
     #[error(transparent)]
     Report(#[from] ReportError),
     /// The output folder holds something already.

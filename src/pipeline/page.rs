@@ -59,7 +59,7 @@ fn environment() -> Section {
     let diagnosis = diagnose();
     let entries = [
         ("opnav", diagnosis.opnav_version.to_string()),
-        ("OpenCV", diagnosis.opencv_version),
+        ("OpenCV", diagnosis.opencv_version.unwrap_or_else(|| "none".into())),
         ("graphics adapter", diagnosis.default_adapter.unwrap_or_else(|| "none".into())),
         ("processor threads", diagnosis.threads.to_string()),
     ]

@@ -1,9 +1,8 @@
 //! `summary.json`: what a result is and how it came about.
 
 use super::error::PipelineError;
-use crate::dataset::{Frame, write_text};
+use crate::dataset::write_text;
 use crate::observations::FrameStatus;
-use crate::vision::FrameReport;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -45,22 +44,6 @@ pub struct UnusedFrame {
     pub status: FrameStatus,
     /// What is wrong with the file and what to do, if anything.
     pub problem: Option<String>,
-}
-
-impl UnusedFrame {
-    pub(super) fn new(report: &FrameReport, frame: &Frame) -> Self {
-        UnusedFrame {
-            index: report.index,
-            t_ns: report.t_ns,
-            file: frame.path.display().to_string(),
-            status: report.status,
-            problem: report.problem.clone(),
-        }
-    }
-
-    pub(super) fn in_words(&self) -> String {
-        self.problem.clone().unwrap_or_else(|| format!("{}: {}", self.file, self.status.word()))
-    }
 }
 
 impl Summary {

@@ -1,12 +1,13 @@
 //! Any folder of pictures to tracks and relative rotations.
 
 use super::error::PipelineError;
+use super::frame_range::checked_frames;
 use super::front_end_files::{write_front_end, write_pictures};
 use super::mask::read_mask;
 use super::progress::Progress;
 use super::settings::{InputSettings, TrackSettings, write_settings};
 use super::summary::{Summary, UnusedFrame};
-use crate::dataset::ImageSequence;
+use crate::dataset::{Frame, ImageSequence};
 use crate::observations::FrameStatus;
 use crate::settings::Settings;
 use crate::vision::{FrameReport, FrontEnd, FrontEndConfig, TrackInputs, track_sequence};
@@ -65,15 +66,6 @@ pub(super) fn open(folder: &Path, input: &InputSettings) -> Result<(ImageSequenc
     Ok((sequence, mask))
 }
 
-/// The frames asked for, or all; refused where they do not lie within those there are.
-pub(super) fn checked_frames(frames: Option<Range<usize>>, available: usize) -> Result<Range<usize>, PipelineError> {
-    let range = frames.unwrap_or(0..available);
-    if range.start >= range.end || range.end > available {
-        return Err(PipelineError::FrameRange { from: range.start, to: range.end, available });
-    }
-    Ok(range)
-}
-
 /// Runs the front end with progress, and notes counts and timing in the summary.
 pub(super) fn run_front_end(
     sequence: &ImageSequence,
@@ -96,7 +88,7 @@ pub(super) fn run_front_end(
 /// Counts frames and pairs by their outcome, and names the frames that could not be used.
 fn note_outcomes(sequence: &ImageSequence, front_end: &FrontEnd, summary: &mut Summary) {
     let unused = front_end.frames.iter().filter(|f| f.status != FrameStatus::Ok);
-    summary.frames_not_used = unused.map(|f| UnusedFrame::new(f, &sequence.frames[f.index])).collect();
+    summary.frames_not_used = unused.map(|f| unused_frame(f, &sequence.frames[f.index])).collect();
     let count = |counts: &mut std::collections::BTreeMap<String, usize>, name: &str| {
         *counts.entry(name.replace('-', "_")).or_default() += 1;
     };
@@ -113,11 +105,26 @@ fn note_outcomes(sequence: &ImageSequence, front_end: &FrontEnd, summary: &mut S
     }
     summary.notes.extend(sequence.notes.iter().cloned());
     if let Some(first) = summary.frames_not_used.first() {
-        let (number, problem) = (summary.frames_not_used.len(), first.in_words());
+        let (number, problem) = (summary.frames_not_used.len(), unused_in_words(first));
         summary
             .notes
             .push(format!("{number} of {} frames could not be used; the first: {problem}", front_end.frames.len()));
     }
+}
+
+/// What the summary says of a frame that could not be used.
+fn unused_frame(report: &FrameReport, frame: &Frame) -> UnusedFrame {
+    UnusedFrame {
+        index: report.index,
+        t_ns: report.t_ns,
+        file: frame.path.display().to_string(),
+        status: report.status,
+        problem: report.problem.clone(),
+    }
+}
+
+fn unused_in_words(frame: &UnusedFrame) -> String {
+    frame.problem.clone().unwrap_or_else(|| format!("{}: {}", frame.file, frame.status.word()))
 }
 
 /// Mean time a frame of each stage of the front end, ms.

@@ -1,11 +1,12 @@
 //! A tumbling small body: pictures in; attitude, rate and inertia ratios out.
 
 use super::error::PipelineError;
+use super::frame_range::checked_frames;
 use super::front_end_files::{write_front_end, write_pictures};
 use super::progress::Progress;
 use super::settings::{TumbleSettings, write_settings};
 use super::summary::Summary;
-use super::track::{checked_frames, open, run_front_end};
+use super::track::{open, run_front_end};
 use crate::dataset::{ImageSequence, StampedPose, write_tum};
 use crate::navigation::tumbling::{TumblingEpoch, TumblingResult, estimate, write_covariance_csv, write_estimate_csv};
 use crate::settings::Settings;

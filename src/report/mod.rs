@@ -5,20 +5,31 @@
 //! its [`Metrics`](crate::evaluation::Metrics), and [`result_section`] from its folder.
 //! [`scenario_reference`] lists the keys of a scenario in Markdown, [`settings_reference`] the settings of commands.
 
+#[cfg(feature = "report")]
 mod error;
+mod figure_lines;
+mod numbers;
+#[cfg(feature = "report")]
 mod page;
+#[cfg(feature = "report")]
 mod plot;
 mod reference;
+#[cfg(feature = "vision")]
 mod track_overlay;
 
+#[cfg(feature = "report")]
 pub use error::ReportError;
+pub use figure_lines::figure_lines;
+pub use numbers::{format_number, label_of, unit_label};
+#[cfg(all(feature = "report", feature = "scene"))]
+pub use page::campaign_sections;
+#[cfg(feature = "report")]
 pub use page::{
-    Block, MissionReport, Page, Picture, Section, campaign_sections, environment_table, figure_lines, figure_table,
-    mission_section, picture_png, render_page, result_section, timing_table, write_report,
+    Block, MissionReport, Page, Picture, Section, environment_table, figure_table, mission_section, picture_png,
+    render_page, result_section, timing_table, write_report,
 };
-pub use plot::{
-    Curve, LegendEntry, Plot, consistency_plot, error_with_envelope, format_number, label_of, magnitude_plot,
-    unit_label,
-};
+#[cfg(feature = "report")]
+pub use plot::{Curve, LegendEntry, Plot, consistency_plot, error_with_envelope, magnitude_plot};
 pub use reference::{CommandSettings, scenario_reference, settings_reference};
+#[cfg(feature = "vision")]
 pub use track_overlay::{contact_sheet, draw_tracks};

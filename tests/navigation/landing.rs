@@ -17,5 +17,6 @@ mod map;
 mod monte_carlo;
 mod outages;
 mod refusals;
+#[cfg(feature = "scene")]
 mod speed;
 mod wrong_point;

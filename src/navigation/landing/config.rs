@@ -6,11 +6,11 @@ use crate::navigation::filter::Gate;
 use crate::navigation::landmark::{GroundPrior, Selector};
 use crate::settings::{OutOfRange, limits};
 use nalgebra::Vector3;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How an unknown landmark gets its first place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "settings", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum LandmarkStart {
     /// Where its first bearing meets the plane of the ground, at once.
@@ -21,7 +21,8 @@ pub enum LandmarkStart {
 }
 
 /// What is known of the IMU's biases at the start: 0, give or take.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "settings", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BiasPrior {
     /// 1σ of the gyroscope's bias, each axis, rad/s, above 0.
@@ -31,7 +32,8 @@ pub struct BiasPrior {
 }
 
 /// Options of [`navigate`](super::navigate).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "settings", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct LandingConfig {
     /// Coordinates of the error state (default hybrid).
@@ -171,7 +173,8 @@ impl BiasPrior {
 }
 
 /// What is done with the rotations that images tell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "settings", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum ImageRotationUse {
     /// They are compared with the gyroscope's; the estimate does not depend on them.

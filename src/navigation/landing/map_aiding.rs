@@ -38,6 +38,9 @@ pub struct SightedByMap {
     pub points: Vec<PointByMap>,
 }
 
+/// Searches the frame at a time (ns) for points of a map, given where the camera is thought to be.
+type Look<'a, E> = dyn FnMut(&PredictedCamera, i64) -> Result<Option<Vec<KnownSighting>>, E> + 'a;
+
 /// Sightings of a map's points in every frame of a descent. A filter of its own, by nothing but the IMU and the map,
 /// predicts where the camera is; what each frame adds makes the prediction of the next one better.
 ///
@@ -51,7 +54,7 @@ pub fn sighted_by_map<E: From<LandingError>>(
     input: &LandingInput,
     designated: &[TrackObservation],
     config: &LandingConfig,
-    look: &mut dyn FnMut(&PredictedCamera, i64) -> Result<Option<Vec<KnownSighting>>, E>,
+    look: &mut Look<E>,
 ) -> Result<SightedByMap, E> {
     let record = ImuRecord { samples: &input.imu, noise: &input.imu_noise };
     let mount = input.mount();

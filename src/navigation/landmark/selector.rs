@@ -7,12 +7,12 @@ use super::triangle::Triangle;
 use super::viewpoint::Viewpoint;
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 /// How the ideal landmark is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "settings", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Selector {
     /// Least depth error, closed form (Li et al. 2023).

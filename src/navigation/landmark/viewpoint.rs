@@ -2,11 +2,11 @@
 
 use crate::settings::{OutOfRange, limits};
 use nalgebra::{Rotation3, SMatrix, Unit, Vector3};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What is known of the ground before it is measured: its height above the site's plane z = 0.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "settings", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct GroundPrior {
     /// Largest 1σ of the height, m, no less than `sigma_floor_m` (default 30).

@@ -1,11 +1,11 @@
 //! Settings of the tumbling estimators.
 
 use crate::settings::{OutOfRange, limits};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Which estimator.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "settings", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Estimator {
     /// The extended Kalman filter of Deng et al. (2024) on the chained attitude: the baseline.
@@ -18,7 +18,8 @@ pub enum Estimator {
 }
 
 /// How the paper's filter steps its state and covariance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "settings", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum PaperIntegration {
     /// One Euler step a picture, `Φ = I + C ΔT`, as printed (equations 34 and 36).
@@ -29,7 +30,8 @@ pub enum PaperIntegration {
 }
 
 /// Settings of the paper's filter.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "settings", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct PaperConfig {
     /// Diagonal of Q, per step, on (δq_v, δω in rad/s, δl), above 0 (default 0.001, the paper's).
@@ -60,7 +62,8 @@ impl Default for PaperConfig {
 }
 
 /// Settings of [`estimate`](super::estimate).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "settings", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct TumblingConfig {
     /// Which estimator (default shooting).

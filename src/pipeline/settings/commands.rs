@@ -1,9 +1,7 @@
-//! One type of settings a command.
+//! One type of settings a command that reads pictures.
 
 use super::InputSettings;
-use crate::campaign::CampaignOptions;
 use crate::navigation::landing::LandingConfig;
-use crate::navigation::landmark::Selector;
 use crate::navigation::tumbling::TumblingConfig;
 use crate::settings::{OutOfRange, Settings};
 use crate::vision::{FrontEndConfig, FrontEndMode, MapMatchConfig};
@@ -98,22 +96,6 @@ impl Settings for TumbleSettings {
         self.input.validate().map_err(|e| e.under("input"))?;
         self.tumbling.validate().map_err(|e| e.under("tumbling"))?;
         self.front_end.validate().map_err(|e| e.under("front_end"))
-    }
-}
-
-/// Settings of `opnav montecarlo landing`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct MonteCarloSettings {
-    /// One campaign for each, instead of one with the filter's selector (default: none).
-    pub selectors: Vec<Selector>,
-    /// What every campaign has in common.
-    pub campaign: CampaignOptions,
-}
-
-impl Settings for MonteCarloSettings {
-    fn validate(&self) -> Result<(), OutOfRange> {
-        self.campaign.validate().map_err(|e| e.under("campaign"))
     }
 }
 

@@ -1,16 +1,24 @@
 //! The settings of every command, for their reference.
 
-use super::{DemoSettings, LandSettings, MonteCarloSettings, TrackSettings, TumbleSettings};
+#[cfg(all(feature = "scene", feature = "report"))]
+use super::MonteCarloSettings;
+#[cfg(feature = "vision")]
+use super::{DemoSettings, LandSettings, TrackSettings, TumbleSettings};
 use crate::report::CommandSettings;
 use crate::settings::Settings;
 
-/// The settings of every command that has its own; `render`, `map` and `bench` have those of a scenario.
+/// The settings of every command of the build that has its own; `render`, `map` and `bench` have those of a scenario.
 pub fn command_settings() -> Vec<CommandSettings> {
     vec![
+        #[cfg(feature = "vision")]
         of::<TrackSettings>("track"),
+        #[cfg(feature = "vision")]
         of::<LandSettings>("land"),
+        #[cfg(feature = "vision")]
         of::<TumbleSettings>("tumble"),
+        #[cfg(all(feature = "scene", feature = "report"))]
         of::<MonteCarloSettings>("montecarlo landing"),
+        #[cfg(feature = "vision")]
         of::<DemoSettings>("demo"),
     ]
 }

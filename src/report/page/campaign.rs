@@ -6,9 +6,10 @@ use crate::campaign::{Campaign, TrueState, true_states};
 use crate::evaluation::percentile;
 use crate::navigation::landmark::{GroundPrior, Triangle, Viewpoint};
 use crate::report::error::ReportError;
+use crate::report::numbers::format_number;
 use crate::report::plot::{
     Axis, BAND, Box, Curve, LIMIT, LINE, Layer, LegendEntry, Panel, Plot, consistency_plot, draw_boxes, draw_map,
-    draw_panels, format_number,
+    draw_panels,
 };
 use crate::stats::ConsistencyBounds;
 use nalgebra::{SMatrix, Vector3};

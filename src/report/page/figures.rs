@@ -2,7 +2,7 @@
 
 use super::page::Block;
 use crate::evaluation::{Figure, Metrics};
-use crate::report::plot::{format_number, label_of, unit_label};
+use crate::report::numbers::{format_number, label_of, unit_label};
 use serde_json::Value;
 
 /// Table of figures with units and, where there are any, the bounds to keep.
@@ -22,20 +22,6 @@ pub fn figure_table<'a>(caption: &str, figures: impl IntoIterator<Item = &'a Fig
         row
     };
     Block::Table { caption: caption.into(), header, rows: figures.iter().map(row).collect() }
-}
-
-/// Verdicts and figures as lines of text, for a terminal.
-pub fn figure_lines(metrics: &Metrics) -> Vec<String> {
-    let verdicts = metrics.verdicts.iter().map(|v| {
-        let answer = if v.holds { "yes" } else { "no" };
-        format!("  {:<38} {answer} ({})", label_of(&v.name), v.reason)
-    });
-    let figures = metrics.figures.iter().map(|f| {
-        let bound = f.bound.map(|b| format!("  [{} … {}]", format_number(b.lower), format_number(b.upper)));
-        let (name, value, unit) = (label_of(&f.name), format_number(f.value), unit_label(&f.unit));
-        format!("  {name:<38} {value:>10} {unit}{}", bound.unwrap_or_default())
-    });
-    verdicts.chain(figures).collect()
 }
 
 /// Time a stage took, from the object `timing_ms` (stage to ms) of a result's summary; `None` without one.

@@ -4,7 +4,8 @@ use super::figures::{figure_table, figures_with, timing_table};
 use super::page::{Block, Picture, Section};
 use crate::evaluation::{Metrics, Mission, Series};
 use crate::report::error::ReportError;
-use crate::report::plot::{Curve, consistency_plot, error_with_envelope, format_number, magnitude_plot};
+use crate::report::numbers::format_number;
+use crate::report::plot::{Curve, consistency_plot, error_with_envelope, magnitude_plot};
 use serde_json::Value;
 
 /// What the section of a result is built from.

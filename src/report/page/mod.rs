@@ -1,5 +1,6 @@
 //! The self-contained page: missions, figures, pictures, campaigns.
 
+#[cfg(feature = "scene")]
 mod campaign;
 mod figures;
 mod mission;
@@ -8,8 +9,9 @@ mod picture;
 mod render;
 mod result;
 
+#[cfg(feature = "scene")]
 pub use campaign::campaign_sections;
-pub use figures::{environment_table, figure_lines, figure_table, timing_table};
+pub use figures::{environment_table, figure_table, timing_table};
 pub use mission::{MissionReport, mission_section};
 pub use page::{Block, Page, Picture, Section};
 pub use picture::picture_png;

@@ -1,6 +1,6 @@
 //! Axes of plots: linear, logarithmic, and one that shows both signs over many decades.
 
-use super::numbers::tick_label;
+use crate::report::numbers::tick_label;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use std::ops::Range;
 

@@ -1,9 +1,9 @@
 //! The plots of a report: errors in their envelopes, consistency, sizes of errors.
 
 use super::axis::Axis;
-use super::numbers::unit_label;
 use super::plot::{BAND, LIMIT, LINE, Layer, LegendEntry, Panel, Plot, draw_panels};
 use crate::report::error::ReportError;
+use crate::report::numbers::unit_label;
 use crate::stats::ConsistencyBounds;
 use plotters::style::RGBColor;
 

@@ -1,13 +1,16 @@
-//! Plots: axes, charts, kinds, and how numbers are written.
+//! Plots: axes, charts, kinds. What only campaigns draw needs the feature `scene`.
 
 mod axis;
+#[cfg(feature = "scene")]
 mod charts;
 mod kinds;
-mod numbers;
 mod plot;
 
+#[cfg(feature = "scene")]
 pub use axis::Axis;
+#[cfg(feature = "scene")]
 pub use charts::{Box, draw_boxes, draw_map};
 pub use kinds::{Curve, consistency_plot, error_with_envelope, magnitude_plot};
-pub use numbers::{format_number, label_of, unit_label};
-pub use plot::{BAND, LIMIT, LINE, Layer, LegendEntry, Panel, Plot, draw_panels};
+#[cfg(feature = "scene")]
+pub use plot::{BAND, LIMIT, LINE, Layer, Panel, draw_panels};
+pub use plot::{LegendEntry, Plot};

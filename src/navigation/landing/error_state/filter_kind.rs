@@ -1,10 +1,10 @@
 //! The two forms of the filter.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Coordinates of the error state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "settings", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum FilterKind {
     /// Position, velocity and landmarks in lander axes, attitude in site axes: consistent.

@@ -26,6 +26,7 @@ fn scientific(value: f64) -> String {
 }
 
 /// The label of a tick: short, with a power of ten where it has to be.
+#[cfg(feature = "report")]
 pub fn tick_label(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {
