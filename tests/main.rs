@@ -17,6 +17,7 @@ mod navigation;
 mod observations;
 #[cfg(all(feature = "render", feature = "vision"))]
 mod pipeline;
+mod reference_body;
 #[cfg(feature = "render")]
 mod render;
 #[cfg(feature = "report")]

@@ -1,26 +1,22 @@
 //! Tumbling bodies: attitude, rate and inertia against a motion that is integrated here.
 
 use super::bench::{Bench, SECOND_NS, assert_near, covariance_csv, covariance_root, figure, white};
-use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+use crate::reference_body::{STATES, rate_rad_s, tensor};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use opnav::dataset::truth::{AsteroidInertia, AsteroidState, write_asteroid};
 use opnav::dataset::{StampedPose, write_tum};
 use opnav::evaluation::*;
 use opnav::geometry::so3::exp;
 use std::fmt::Write;
 
-/// The reference case: inertia in the axes of the camera at the start.
-fn inertia() -> Matrix3<f64> {
-    Matrix3::new(0.85, 0.13, 0.17, 0.13, 1.37, -0.11, 0.17, -0.11, 1.0)
-}
-
 /// Torque-free motion from the reference case, one sample every `step_s`, by fourth-order Runge-Kutta.
 fn tumble(count: usize, step_s: f64) -> Vec<AsteroidState> {
-    let inverse = inertia().try_inverse().expect("invertible");
-    let rate_slope = |w: &Vector3<f64>| -inverse * w.cross(&(inertia() * w));
+    let inverse = tensor().try_inverse().expect("invertible");
+    let rate_slope = |w: &Vector3<f64>| -inverse * w.cross(&(tensor() * w));
     // As matrices and quaternions: A' = exp(-w dt) A.
     let substeps = 200;
     let dt = step_s / f64::from(substeps);
-    let mut w = Vector3::new(5.0, 2.3, 3.5).map(f64::to_radians);
+    let mut w = rate_rad_s();
     let mut attitude = UnitQuaternion::identity();
     let mut states = vec![];
     for k in 0..count {
@@ -43,11 +39,9 @@ fn tumble(count: usize, step_s: f64) -> Vec<AsteroidState> {
 #[test]
 fn the_simulated_truth_agrees_with_the_reference() {
     let state = tumble(61, 1.0)[60];
-    let w = Vector3::new(0.519253989963, 2.152258543697, -6.26030457059).map(f64::to_radians);
-    assert!((state.rate_in_asteroid_rad_s - w).norm() < 1e-9);
-    // The reference quaternion is scalar last and passive: asteroid_from_inertial is its conjugate in our notation.
-    let q = nalgebra::Quaternion::new(0.590453671554, -0.649734687738, 0.32839425578, 0.348376965468);
-    assert!(state.asteroid_from_inertial.angle_to(&UnitQuaternion::from_quaternion(q)) < 1e-6);
+    let [known, _] = STATES;
+    assert!((state.rate_in_asteroid_rad_s - known.rate_in_asteroid_rad_s()).norm() < 1e-9);
+    assert!(state.asteroid_from_inertial.angle_to(&known.asteroid_from_inertial()) < 1e-6);
 }
 
 #[test]
@@ -74,7 +68,7 @@ fn tumbling_bench(gauge: &UnitQuaternion<f64>) -> Bench {
             rate_in_asteroid_rad_s: gauge * s.rate_in_asteroid_rad_s,
         })
         .collect();
-    let tensor = turn.matrix() * inertia() * turn.matrix().transpose() * 7.0;
+    let tensor = turn.matrix() * tensor() * turn.matrix().transpose() * 7.0;
     let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| 0.5 * (tensor[(i, j)] + tensor[(j, i)])));
     write_asteroid(&bench.root(), &states, &AsteroidInertia { inertia: rows }).expect("write");
     bench

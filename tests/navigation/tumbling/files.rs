@@ -1,6 +1,7 @@
 //! Input that cannot be used, and the files of a result.
 
-use super::simulated::{PAPER, design, paper_rate, rate_deg_s, run, simulate};
+use super::simulated::{design, rate_deg_s, run, simulate};
+use crate::reference_body::{RATIOS, rate_rad_s};
 use nalgebra::{Quaternion, UnitQuaternion};
 use opnav::dataset::read_timed_table;
 use opnav::navigation::tumbling::*;
@@ -8,7 +9,7 @@ use opnav::observations::{PairStatus, RelativeRotation};
 
 #[test]
 fn unusable_input_gives_one_clear_error() {
-    let good = simulate(paper_rate(), PAPER, &design(30.0, 1.0), 1.0, 1);
+    let good = simulate(rate_rad_s(), RATIOS, &design(30.0, 1.0), 1.0, 1);
     let config = TumblingConfig::default();
     let refused = |pairs: &[RelativeRotation], times: &[i64], config: &TumblingConfig| {
         estimate(pairs, times, config).unwrap_err().to_string()
@@ -43,7 +44,7 @@ fn unusable_input_gives_one_clear_error() {
 #[test]
 fn files_hold_every_picture_and_no_invented_number() {
     let folder = tempfile::tempdir().unwrap();
-    let sequence = simulate(paper_rate(), PAPER, &design(60.0, 1.0), 1.0, 1);
+    let sequence = simulate(rate_rad_s(), RATIOS, &design(60.0, 1.0), 1.0, 1);
     let result = run(&sequence, &TumblingConfig::default());
     let (estimate_csv, covariance_csv) = (folder.path().join("estimate.csv"), folder.path().join("covariance.csv"));
     write_estimate_csv(&estimate_csv, &result).unwrap();

@@ -1,8 +1,7 @@
 //! The filter in real time, and that of the paper as the baseline.
 
-use super::simulated::{
-    PAPER, design, mean_nees, paper_rate, rate_errors_rad_s, rms, run, simulate, using, worst_ratio_error,
-};
+use super::simulated::{design, mean_nees, rate_errors_rad_s, rms, run, simulate, using, worst_ratio_error};
+use crate::reference_body::{RATIOS, rate_rad_s};
 use nalgebra::UnitQuaternion;
 use opnav::geometry::Manifold;
 use opnav::navigation::tumbling::*;
@@ -17,12 +16,12 @@ fn realtime_filter_is_consistent() {
 
 #[test]
 fn papers_filter_reaches_its_floor_and_no_more() {
-    let mut sequence = simulate(paper_rate(), PAPER, &design(600.0, 1.0), 0.0, 1);
+    let mut sequence = simulate(rate_rad_s(), RATIOS, &design(600.0, 1.0), 0.0, 1);
     let euler = run(&sequence, &using(Estimator::Paper));
     let last_fifth = |r: &TumblingResult| rms(rate_errors_rad_s(&sequence, r)[480..].iter().copied()).to_degrees();
     assert!((last_fifth(&euler) - 0.092).abs() < 0.001, "{}", last_fifth(&euler));
     let ratios_at =
-        |r: &TumblingResult, k: usize| worst_ratio_error(&PAPER, &r.epochs[k].inertia.elements.map(Option::unwrap));
+        |r: &TumblingResult, k: usize| worst_ratio_error(&RATIOS, &r.epochs[k].inertia.elements.map(Option::unwrap));
     assert!(
         ratios_at(&euler, 500) > 0.05 && ratios_at(&euler, 600) < 0.06,
         "{} {}",
@@ -40,7 +39,7 @@ fn papers_filter_reaches_its_floor_and_no_more() {
 
 #[test]
 fn papers_filter_fed_the_transposed_attitude_never_converges() {
-    let sequence = simulate(paper_rate(), PAPER, &design(600.0, 1.0), 0.0, 1);
+    let sequence = simulate(rate_rad_s(), RATIOS, &design(600.0, 1.0), 0.0, 1);
     let mut errors = [Vec::new(), Vec::new()];
     for (transposed, errors) in errors.iter_mut().enumerate() {
         let mut filter = PaperFilter::new(&PaperConfig::default());
@@ -60,7 +59,7 @@ fn papers_filter_fed_the_transposed_attitude_never_converges() {
 
 #[test]
 fn papers_filter_does_not_mind_the_sign_of_a_quaternion() {
-    let sequence = simulate(paper_rate(), PAPER, &design(100.0, 1.0), 0.0, 1);
+    let sequence = simulate(rate_rad_s(), RATIOS, &design(100.0, 1.0), 0.0, 1);
     let mut filters = [PaperFilter::new(&PaperConfig::default()), PaperFilter::new(&PaperConfig::default())];
     for truth in &sequence.truth[1..] {
         let q = truth.asteroid_from_inertial;
@@ -74,11 +73,11 @@ fn papers_filter_does_not_mind_the_sign_of_a_quaternion() {
 
 #[test]
 fn shooting_beats_the_papers_filter_on_noisy_rotations() {
-    let sequence = simulate(paper_rate(), PAPER, &design(300.0, 1.0), 1.0, 5);
+    let sequence = simulate(rate_rad_s(), RATIOS, &design(300.0, 1.0), 1.0, 5);
     let error = |estimator| {
         let result = run(&sequence, &using(estimator));
         let rate = rms(rate_errors_rad_s(&sequence, &result)[240..].iter().copied());
-        (rate.to_degrees(), worst_ratio_error(&PAPER, &result.inertia_ratios.unwrap()))
+        (rate.to_degrees(), worst_ratio_error(&RATIOS, &result.inertia_ratios.unwrap()))
     };
     let (paper, shooting) = (error(Estimator::Paper), error(Estimator::Shooting));
     assert!(shooting.0 < 0.03 && shooting.0 < 0.25 * paper.0, "{shooting:?} {paper:?}");

@@ -1,9 +1,10 @@
 //! Shooting over the whole arc: exact, consistent, at its bound, and not led astray.
 
 use super::simulated::{
-    PAPER, Sequence, design, mean_nees, nees_at_end, paper_rate, rate_deg_s, rate_errors_rad_s, ratio_nees, rms, run,
-    simulate, using, worst_ratio_error,
+    Sequence, design, mean_nees, nees_at_end, rate_deg_s, rate_errors_rad_s, ratio_nees, rms, run, simulate, using,
+    worst_ratio_error,
 };
+use crate::reference_body::{RATIOS, rate_rad_s};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use opnav::geometry::so3;
 use opnav::navigation::tumbling::*;
@@ -15,7 +16,7 @@ use rayon::prelude::*;
 #[test]
 fn exact_rotations_give_the_exact_motion() {
     let cases = [
-        (paper_rate(), PAPER),
+        (rate_rad_s(), RATIOS),
         (rate_deg_s(0.5, 3.0, 1.0), InertiaRatios([0.5, 1.2, 0.05, -0.1, 0.1])),
         (rate_deg_s(2.0, 2.2, -1.3), InertiaRatios([2.5, 2.2, 0.3, 0.4, -0.3])),
     ];
@@ -36,7 +37,7 @@ fn exact_rotations_give_the_exact_motion() {
 
 #[test]
 fn a_slow_body_seen_rarely_with_gaps_is_found_too() {
-    let mut sequence = simulate(paper_rate() * 1e-3, PAPER, &design(120_000.0, 1500.0), 0.0, 1);
+    let mut sequence = simulate(rate_rad_s() * 1e-3, RATIOS, &design(120_000.0, 1500.0), 0.0, 1);
     for (i, pair) in sequence.pairs.iter_mut().enumerate() {
         if i % 7 == 3 {
             pair.status = PairStatus::FewMatches;
@@ -46,21 +47,21 @@ fn a_slow_body_seen_rarely_with_gaps_is_found_too() {
     }
     let result = run(&sequence, &TumblingConfig::default());
     assert!(rms(rate_errors_rad_s(&sequence, &result)) < 1e-12);
-    assert!(worst_ratio_error(&PAPER, &result.inertia_ratios.unwrap()) < 1e-8);
+    assert!(worst_ratio_error(&RATIOS, &result.inertia_ratios.unwrap()) < 1e-8);
 }
 
 #[test]
 fn shooting_is_consistent_and_reaches_the_bound() {
     let runs = 24;
-    let bound = arc_bound(&paper_rate(), &PAPER, &design(60.0, 1.0), 10.0).unwrap();
+    let bound = arc_bound(&rate_rad_s(), &RATIOS, &design(60.0, 1.0), 10.0).unwrap();
     let results: Vec<(f64, f64, f64, f64)> = (0..runs)
         .into_par_iter()
         .map(|seed| {
-            let sequence = simulate(paper_rate(), PAPER, &design(60.0, 1.0), 1.0, seed);
+            let sequence = simulate(rate_rad_s(), RATIOS, &design(60.0, 1.0), 1.0, seed);
             let result = run(&sequence, &TumblingConfig::default());
-            let ratio = (result.inertia_ratios.unwrap()[1] - PAPER.0[1]) / bound.inertia_sigma.unwrap()[1];
+            let ratio = (result.inertia_ratios.unwrap()[1] - RATIOS.0[1]) / bound.inertia_sigma.unwrap()[1];
             let rate = rate_errors_rad_s(&sequence, &result)[0];
-            (nees_at_end(&sequence, &result) / 6.0, ratio_nees(&PAPER, &result) / 5.0, rate, ratio)
+            (nees_at_end(&sequence, &result) / 6.0, ratio_nees(&RATIOS, &result) / 5.0, rate, ratio)
         })
         .collect();
     let mean = |f: fn(&(f64, f64, f64, f64)) -> f64| results.iter().map(f).sum::<f64>() / runs as f64;
@@ -91,7 +92,7 @@ fn wrong_pairs_are_left_out() {
     let errors: Vec<(f64, usize, usize)> = (0..8)
         .into_par_iter()
         .map(|seed| {
-            let mut sequence = simulate(paper_rate(), PAPER, &design(60.0, 1.0), 1.0, seed);
+            let mut sequence = simulate(rate_rad_s(), RATIOS, &design(60.0, 1.0), 1.0, seed);
             let mut random = random_stream(seed, "wrong pairs", 0);
             let count = sequence.pairs.iter().enumerate().filter(|(i, _)| wrong(*i)).count();
             for (_, pair) in sequence.pairs.iter_mut().enumerate().filter(|(i, _)| wrong(*i)) {
@@ -110,7 +111,7 @@ fn wrong_pairs_are_left_out() {
 
 #[test]
 fn transposed_rotations_are_refused() {
-    let mut sequence = simulate(paper_rate(), PAPER, &design(60.0, 1.0), 1.0, 1);
+    let mut sequence = simulate(rate_rad_s(), RATIOS, &design(60.0, 1.0), 1.0, 1);
     for pair in &mut sequence.pairs {
         pair.camera_to_from_camera_from = pair.camera_to_from_camera_from.inverse();
     }

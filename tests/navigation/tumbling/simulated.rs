@@ -1,5 +1,6 @@
 //! Sequences of relative rotations along an integrated motion; nothing of the scene is used.
 
+use crate::reference_body::{RATIOS, rate_rad_s};
 use nalgebra::{Matrix3, SVector, UnitQuaternion, Vector3};
 use opnav::geometry::{Manifold, so3};
 use opnav::navigation::tumbling::*;
@@ -8,16 +9,10 @@ use opnav::stats::{normalized_error_squared, random_stream};
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
-pub const PAPER: InertiaRatios = InertiaRatios([0.85, 1.37, 0.13, 0.17, -0.11]);
-
 const SIGMA_RAD: f64 = 0.05 * std::f64::consts::PI / 180.0;
 
 pub fn rate_deg_s(x: f64, y: f64, z: f64) -> Vector3<f64> {
     Vector3::new(x.to_radians(), y.to_radians(), z.to_radians())
-}
-
-pub fn paper_rate() -> Vector3<f64> {
-    rate_deg_s(5.0, 2.3, 3.5)
 }
 
 pub fn at_start(rate_rad_s: Vector3<f64>) -> SpinState {
@@ -109,10 +104,10 @@ pub fn mean_nees(runs: u64, arc_s: f64, config: &TumblingConfig, spoil: impl Fn(
     let all: Vec<(f64, f64)> = (0..runs)
         .into_par_iter()
         .map(|seed| {
-            let mut sequence = simulate(paper_rate(), PAPER, &design(arc_s, 1.0), 1.0, seed);
+            let mut sequence = simulate(rate_rad_s(), RATIOS, &design(arc_s, 1.0), 1.0, seed);
             spoil(&mut sequence);
             let result = run(&sequence, config);
-            (nees_at_end(&sequence, &result) / 6.0, ratio_nees(&PAPER, &result) / 5.0)
+            (nees_at_end(&sequence, &result) / 6.0, ratio_nees(&RATIOS, &result) / 5.0)
         })
         .collect();
     let n = runs as f64;

@@ -1,30 +1,18 @@
 //! Torque-free motion and the tumbling scene.
 
+use crate::reference_body::{STATES, acceleration_rad_s2, from_scalar_last, rate_rad_s, tensor};
 use crate::scene::{scenario, tumbling};
 use nalgebra::{Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
 use opnav::geometry::so3;
 use opnav::scene::{RigidBody, Spin};
 
-fn paper_inertia() -> Matrix3<f64> {
-    Matrix3::new(0.85, 0.13, 0.17, 0.13, 1.37, -0.11, 0.17, -0.11, 1.0)
-}
-
 fn paper_start() -> Spin {
-    Spin {
-        asteroid_from_inertial: UnitQuaternion::identity(),
-        rate_in_asteroid_rad_s: Vector3::new(5.0, 2.3, 3.5).map(f64::to_radians),
-    }
-}
-
-/// Deng et al. (2024) write attitudes as q = [q_v, q_4], scalar last, with the passive matrix
-/// A(q) = (2 q_4² - 1) I + 2 q_v q_vᵀ - 2 q_4 [q_v×]: the active Hamilton quaternion of A is (q_4, -q_v).
-fn from_scalar_last(q: [f64; 4]) -> UnitQuaternion<f64> {
-    UnitQuaternion::from_quaternion(Quaternion::new(q[3], -q[0], -q[1], -q[2]))
+    Spin { asteroid_from_inertial: UnitQuaternion::identity(), rate_in_asteroid_rad_s: rate_rad_s() }
 }
 
 #[test]
 fn conversion_agrees_with_the_papers_matrix() {
-    let q = [0.649734687738, -0.32839425578, -0.348376965468, 0.590453671554];
+    let q = STATES[0].scalar_last;
     let v = Vector3::new(q[0], q[1], q[2]);
     let matrix =
         Matrix3::identity() * (2.0 * q[3] * q[3] - 1.0) + v * v.transpose() * 2.0 - so3::hat(&v) * (2.0 * q[3]);
@@ -34,39 +22,27 @@ fn conversion_agrees_with_the_papers_matrix() {
 
 #[test]
 fn rate_derivative_is_the_papers() {
-    let body = RigidBody::new(&paper_inertia()).unwrap();
+    let body = RigidBody::new(&tensor()).unwrap();
     let found = body.rate_derivative(&paper_start().rate_in_asteroid_rad_s);
-    let expected = Vector3::new(1.217511829e-3, 2.93714897e-4, -1.773544285e-3);
-    assert!((found - expected).abs().max() < 1e-12, "{found}");
+    assert!((found - acceleration_rad_s2()).abs().max() < 1e-12, "{found}");
 }
 
 #[test]
 fn paper_case_reaches_the_known_states() {
-    let body = RigidBody::new(&paper_inertia()).unwrap();
-    let known = [
-        (
-            60.0,
-            [0.649734687738, -0.32839425578, -0.348376965468, 0.590453671554],
-            [0.519253989963, 2.152258543697, -6.26030457059],
-        ),
-        (
-            600.0,
-            [-0.025368477055, 0.097716333999, -0.180070744049, 0.978459240633],
-            [1.629255771355, 3.64362201528, 5.21732795192],
-        ),
-    ];
-    for (t_s, q, rate_deg_s) in known {
+    let body = RigidBody::new(&tensor()).unwrap();
+    for known in STATES {
+        let t_s = known.t_s;
         let spin = body.propagate(&paper_start(), t_s);
-        let turn_rad = spin.asteroid_from_inertial.angle_to(&from_scalar_last(q));
+        let turn_rad = spin.asteroid_from_inertial.angle_to(&known.asteroid_from_inertial());
         assert!(turn_rad < 1e-10, "t = {t_s}: {turn_rad}");
-        let rate_deg = spin.rate_in_asteroid_rad_s.map(f64::to_degrees);
-        assert!((rate_deg - Vector3::from(rate_deg_s)).abs().max() < 1e-9, "t = {t_s}: {rate_deg}");
+        let off_deg_s = (spin.rate_in_asteroid_rad_s - known.rate_in_asteroid_rad_s()).map(f64::to_degrees);
+        assert!(off_deg_s.abs().max() < 1e-9, "t = {t_s}: {off_deg_s}");
     }
 }
 
 #[test]
 fn energy_and_momentum_stay_for_ten_minutes() {
-    let body = RigidBody::new(&paper_inertia()).unwrap();
+    let body = RigidBody::new(&tensor()).unwrap();
     let start = paper_start();
     let (energy, momentum) = (body.doubled_energy(&start), body.momentum_in_inertial(&start));
     let mut spin = start;
@@ -103,8 +79,8 @@ const SMALL: &str = "[camera]\nwidth_px = 256\nheight_px = 192\n[tumbling]\nfram
 #[test]
 fn scene_is_the_papers_case_by_default() {
     let scene = tumbling(SMALL);
-    assert_eq!(scene.inertia.matrix(), paper_inertia());
-    let body = RigidBody::new(&paper_inertia()).unwrap();
+    assert_eq!(scene.inertia.matrix(), tensor());
+    let body = RigidBody::new(&tensor()).unwrap();
     assert_eq!(scene.states[0].asteroid_from_inertial, UnitQuaternion::identity());
     let expected = body.propagate(&paper_start(), 7.0);
     let last = scene.states.last().unwrap();
