@@ -5,6 +5,6 @@
 mod landing;
 
 pub use landing::{
-    Campaign, CampaignOptions, FieldOfView, FinalErrors, FlightEpoch, FlightRecord, TrueState, fly, run_campaign,
-    true_states,
+    Campaign, CampaignOptions, FieldOfView, FinalErrors, FlightEpoch, FlightRecord, StepNoise, TrueState, fly,
+    measured_bearing, run_campaign, true_states, uncertain_start,
 };

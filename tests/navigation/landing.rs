@@ -16,6 +16,7 @@ mod in_place;
 mod map;
 mod monte_carlo;
 mod outages;
+mod reference_run;
 mod refusals;
 #[cfg(feature = "scene")]
 mod speed;

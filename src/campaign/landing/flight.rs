@@ -3,10 +3,7 @@
 use super::bound::Bound;
 use super::options::CampaignOptions;
 use super::relief::{Relief, features_m, is_seen, surface_point_m};
-use super::simulated_sensors::{
-    TrueState, exact_increment, measured_bearing, measured_increment, true_states, uncertain_start,
-};
-use crate::geometry::so3::log;
+use super::simulated_sensors::{StepNoise, TrueState, measured_bearing, true_states, uncertain_start};
 use crate::navigation::landing::{
     BearingObservation, CameraMount, FrameInput, ImuIncrement, InitializationModel, KnownPoint, Navigator, step,
     viewpoint, with_landmark, without_landmark,
@@ -84,7 +81,9 @@ pub fn fly(options: &CampaignOptions, run: u64) -> FlightRecord {
     let mut bound = Bound::new(&states[0], &believed, &options.filter);
     let mut navigator = Navigator::new(&believed, &options.filter);
     for (second, truth) in states.iter().enumerate() {
-        let exact = second.checked_sub(1).map(|before| exact_increment(&states[before], truth, options));
+        let exact = second
+            .checked_sub(1)
+            .map(|before| StepNoise::of(options).stated(&states[before].increment_to(truth, 1.0, &options.planet())));
         if let Some(exact) = &exact {
             bound = bound.predicted(exact, truth, &options.planet());
         }
@@ -110,7 +109,7 @@ impl Flight<'_> {
     ) -> Option<(Navigator, (FlightEpoch, usize))> {
         let config = &self.options.filter;
         let increment = match exact {
-            Some(exact) => measured_increment(exact, self.options, &mut self.random),
+            Some(exact) => StepNoise::of(self.options).measured(exact, &mut self.random),
             None => ImuIncrement::identity(),
         };
         let navigator = if self.mount.is_none() { self.without_served(navigator) } else { navigator };
@@ -131,7 +130,8 @@ impl Flight<'_> {
         let follows = |id: u64| id == TrackObservation::DESIGNATED || after.estimate.state.landmark_of(id).is_some();
         self.places_m.retain(|id, _| follows(*id));
         let covariance = config.filter.site_covariance(&after.estimate);
-        let error = error(truth, &after);
+        let state = &after.estimate.state;
+        let error = truth.error_of(&state.site_from_lander(), &state.lander_velocity_in_site_m_s);
         let epoch = FlightEpoch {
             error,
             sigma: covariance.diagonal().map(|v| v.max(0.0).sqrt()),
@@ -241,15 +241,4 @@ fn everywhere() -> CameraMount {
         camera: crate::geometry::Camera::from_fov(1024, 1024, 90f64.to_radians()),
         lander_from_camera: nalgebra::Isometry3::identity(),
     }
-}
-
-/// Error, true less estimated, of position, velocity and attitude in site axes.
-fn error(truth: &TrueState, navigator: &Navigator) -> SVector<f64, 9> {
-    let state = &navigator.estimate.state;
-    let psi = log(&(truth.lander_from_site.inverse() * state.lander_from_site));
-    let mut error = SVector::<f64, 9>::zeros();
-    error.fixed_rows_mut::<3>(0).copy_from(&(truth.position_m - state.lander_in_site_m));
-    error.fixed_rows_mut::<3>(3).copy_from(&(truth.velocity_m_s - state.lander_velocity_in_site_m_s));
-    error.fixed_rows_mut::<3>(6).copy_from(&psi);
-    error
 }

@@ -10,4 +10,4 @@ mod simulated_sensors;
 pub use flight::{FlightEpoch, FlightRecord, fly};
 pub use options::{CampaignOptions, FieldOfView};
 pub use outcome::{Campaign, FinalErrors, run_campaign};
-pub use simulated_sensors::{TrueState, true_states};
+pub use simulated_sensors::{StepNoise, TrueState, measured_bearing, true_states, uncertain_start};

@@ -2,15 +2,15 @@
 
 use super::options::CampaignOptions;
 use crate::dataset::InitialState;
-use crate::geometry::so3::{exp, tangent_basis};
-use crate::navigation::landing::{BearingObservation, ImuIncrement};
+use crate::geometry::so3::{exp, log, tangent_basis};
+use crate::navigation::landing::{BearingObservation, ImuIncrement, Planet};
 use crate::scene::{DescentMotion, PolynomialGuidance};
 use nalgebra::{Isometry3, SMatrix, SVector, Unit, UnitQuaternion, Vector3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-/// True state of the lander at one second of the flight.
+/// True state of the lander.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrueState {
     /// Position in the site frame, m.
@@ -21,53 +21,94 @@ pub struct TrueState {
     pub lander_from_site: UnitQuaternion<f64>,
 }
 
+impl TrueState {
+    /// The state at a time of a descent.
+    pub fn at(motion: &DescentMotion, t_s: f64) -> Self {
+        TrueState {
+            position_m: motion.path().position_in_site_m(t_s),
+            velocity_m_s: motion.path().velocity_in_site_m_s(t_s),
+            lander_from_site: motion.site_from_lander(t_s).inverse(),
+        }
+    }
+
+    /// The motion to a later state as a perfect IMU gives it, without covariance. With E = exp(ω T) and u = v + ω×r, in axes
+    /// that do not turn: E r_j = r_i + u_i T + ½ g T² + C_iᵀ Δp, E u_j = u_i + g T + C_iᵀ Δv, C_j = M C_i E.
+    pub fn increment_to(&self, to: &TrueState, duration_s: f64, planet: &Planet) -> ImuIncrement {
+        let rate = planet.rate_in_site_rad_s;
+        let (turn, half_turn) = (exp(&(rate * duration_s)), exp(&(rate * (0.5 * duration_s))));
+        let gained_m_s = half_turn * planet.gravity_in_site_m_s2 * duration_s;
+        let inertial = |state: &TrueState| state.velocity_m_s + rate.cross(&state.position_m);
+        let moved_m = turn * to.position_m - self.position_m - inertial(self) * duration_s;
+        ImuIncrement {
+            duration_s,
+            before_from_after: self.lander_from_site * turn * to.lander_from_site.inverse(),
+            velocity_in_before_m_s: self.lander_from_site * (turn * inertial(to) - inertial(self) - gained_m_s),
+            position_in_before_m: self.lander_from_site * (moved_m - gained_m_s * (0.5 * duration_s)),
+            ..ImuIncrement::identity()
+        }
+    }
+
+    /// Error, true less estimated, of position (m), velocity (m/s) and attitude ψ (rad), all in site axes.
+    pub fn error_of(
+        &self,
+        site_from_lander: &Isometry3<f64>,
+        lander_velocity_in_site_m_s: &Vector3<f64>,
+    ) -> SVector<f64, 9> {
+        let psi = log(&(self.lander_from_site.inverse() * site_from_lander.rotation.inverse()));
+        let mut error = SVector::<f64, 9>::zeros();
+        error.fixed_rows_mut::<3>(0).copy_from(&(self.position_m - site_from_lander.translation.vector));
+        error.fixed_rows_mut::<3>(3).copy_from(&(self.velocity_m_s - lander_velocity_in_site_m_s));
+        error.fixed_rows_mut::<3>(6).copy_from(&psi);
+        error
+    }
+}
+
 /// The true states, once a second.
 pub fn true_states(options: &CampaignOptions) -> Vec<TrueState> {
     let motion = DescentMotion::new(PolynomialGuidance::new(&options.guidance));
     let seconds = options.guidance.duration_s.floor() as u32;
-    (0..=seconds)
-        .map(|t| TrueState {
-            position_m: motion.path().position_in_site_m(f64::from(t)),
-            velocity_m_s: motion.path().velocity_in_site_m_s(f64::from(t)),
-            lander_from_site: motion.site_from_lander(f64::from(t)).inverse(),
-        })
-        .collect()
+    (0..=seconds).map(|t_s| TrueState::at(&motion, f64::from(t_s))).collect()
 }
 
-/// The motion of the lander from one second to the next as a perfect IMU gives it, with the covariance of the real one.
-/// With E = exp(ω T) and u = v + ω×r, in axes that do not turn: E r_j = r_i + u_i T + ½ g T² + C_iᵀ Δp,
-/// E u_j = u_i + g T + C_iᵀ Δv, C_j = M C_i E.
-pub fn exact_increment(from: &TrueState, to: &TrueState, options: &CampaignOptions) -> ImuIncrement {
-    let planet = options.planet();
-    let rate = planet.rate_in_site_rad_s;
-    let (turn, half_turn) = (exp(&rate), exp(&(rate * 0.5)));
-    let g = half_turn * planet.gravity_in_site_m_s2;
-    let inertial = |state: &TrueState| state.velocity_m_s + rate.cross(&state.position_m);
-    let by_noise = by_noise(options);
-    ImuIncrement {
-        duration_s: 1.0,
-        before_from_after: from.lander_from_site * turn * to.lander_from_site.inverse(),
-        velocity_in_before_m_s: from.lander_from_site * (turn * inertial(to) - inertial(from) - g),
-        position_in_before_m: from.lander_from_site
-            * (turn * to.position_m - from.position_m - inertial(from) - g * 0.5),
-        covariance: by_noise * by_noise.transpose(),
-        ..ImuIncrement::identity()
+/// The noise of an IMU over a step of the filter: one draw of rate and of force, 1σ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepNoise {
+    /// 1σ of the rate, rad/s.
+    pub sigma_rate_rad_s: f64,
+    /// 1σ of the specific force, m/s².
+    pub sigma_force_m_s2: f64,
+}
+
+impl StepNoise {
+    /// The noise that a campaign draws.
+    pub fn of(options: &CampaignOptions) -> Self {
+        StepNoise {
+            sigma_rate_rad_s: options.sigma_rate_deg_s.to_radians(),
+            sigma_force_m_s2: options.sigma_force_m_s2,
+        }
     }
-}
 
-/// Errors of an increment of 1 s by unit noise: one draw of rate and force a step.
-fn by_noise(options: &CampaignOptions) -> SMatrix<f64, 9, 6> {
-    let mut by_noise = SMatrix::<f64, 9, 6>::zeros();
-    by_noise.fixed_view_mut::<3, 3>(0, 0).fill_diagonal(options.sigma_rate_deg_s.to_radians());
-    by_noise.fixed_view_mut::<3, 3>(3, 3).fill_diagonal(options.sigma_force_m_s2);
-    by_noise.fixed_view_mut::<3, 3>(6, 3).fill_diagonal(0.5 * options.sigma_force_m_s2);
-    by_noise
-}
+    /// An exact increment with the covariance of this noise.
+    pub fn stated(&self, exact: &ImuIncrement) -> ImuIncrement {
+        let by_unit = self.by_unit(exact.duration_s);
+        ImuIncrement { covariance: by_unit * by_unit.transpose(), ..exact.clone() }
+    }
 
-/// The increment as the IMU measures it.
-pub fn measured_increment(exact: &ImuIncrement, options: &CampaignOptions, random: &mut ChaCha8Rng) -> ImuIncrement {
-    let unit = SVector::<f64, 6>::from_fn(|_, _| StandardNormal.sample(random));
-    exact.adjusted(&-(by_noise(options) * unit))
+    /// The increment as the IMU measures it.
+    pub fn measured(&self, exact: &ImuIncrement, random: &mut ChaCha8Rng) -> ImuIncrement {
+        let unit = SVector::<f64, 6>::from_fn(|_, _| StandardNormal.sample(random));
+        exact.adjusted(&-(self.by_unit(exact.duration_s) * unit))
+    }
+
+    /// Errors of an increment by unit noise.
+    fn by_unit(&self, duration_s: f64) -> SMatrix<f64, 9, 6> {
+        let force_s = self.sigma_force_m_s2 * duration_s;
+        let mut by_unit = SMatrix::<f64, 9, 6>::zeros();
+        by_unit.fixed_view_mut::<3, 3>(0, 0).fill_diagonal(self.sigma_rate_rad_s * duration_s);
+        by_unit.fixed_view_mut::<3, 3>(3, 3).fill_diagonal(force_s);
+        by_unit.fixed_view_mut::<3, 3>(6, 3).fill_diagonal(0.5 * force_s * duration_s);
+        by_unit
+    }
 }
 
 /// The direction of a point, exactly.

@@ -1,8 +1,9 @@
 //! The reference descent seen by a 512² camera of 90°, as pixels: frames at a constant ratio of slant range, tracks of
 //! limited length on ground with relief, an IMU at 100 Hz.
 
-use super::descent::{GRAVITY_IN_SITE_M_S2, Truth, normal3, truth, uncertain_start};
+use super::descent::{GRAVITY_IN_SITE_M_S2, normal3, truth};
 use nalgebra::{Isometry3, UnitQuaternion, Vector2, Vector3};
+use opnav::campaign::{TrueState, uncertain_start};
 use opnav::dataset::{ImuNoise, ImuSample};
 use opnav::geometry::Camera;
 use opnav::geometry::so3::{left_jacobian, log};
@@ -47,7 +48,7 @@ const RATE_HZ: i64 = 100;
 const STEP_NS: i64 = 1_000_000_000 / RATE_HZ;
 const END_NS: i64 = 198_000_000_000;
 
-pub fn truth_at_ns(t_ns: i64) -> Truth {
+pub fn truth_at_ns(t_ns: i64) -> TrueState {
     truth(t_ns as f64 * 1e-9)
 }
 
@@ -190,7 +191,7 @@ fn slipped_m(
 }
 
 fn scaled(flight: &Flight, random: &mut ChaCha8Rng) -> opnav::dataset::InitialState {
-    let mut initial = uncertain_start(random);
+    let mut initial = uncertain_start(&truth(0.0), random);
     let exact = site_from_lander(&truth(0.0));
     if flight.start == 0.0 {
         initial.site_from_lander = exact;
@@ -199,7 +200,7 @@ fn scaled(flight: &Flight, random: &mut ChaCha8Rng) -> opnav::dataset::InitialSt
     initial
 }
 
-pub fn site_from_lander(truth: &Truth) -> Isometry3<f64> {
+pub fn site_from_lander(truth: &TrueState) -> Isometry3<f64> {
     Isometry3::from_parts(truth.position_m.into(), truth.lander_from_site.inverse())
 }
 

@@ -1,6 +1,5 @@
 //! Simulated flights navigated, and how far off they are.
 
-use super::descent::pose_error;
 use super::flight::truth_at_ns;
 use nalgebra::SVector;
 use opnav::navigation::landing::{LandingConfig, LandingEpoch, LandingInput, LandingResult, navigate};
@@ -8,7 +7,7 @@ use opnav::stats::normalized_error_squared;
 use rayon::prelude::*;
 
 pub fn error(epoch: &LandingEpoch) -> SVector<f64, 9> {
-    pose_error(&truth_at_ns(epoch.t_ns), &epoch.site_from_lander, &epoch.lander_velocity_in_site_m_s)
+    truth_at_ns(epoch.t_ns).error_of(&epoch.site_from_lander, &epoch.lander_velocity_in_site_m_s)
 }
 
 pub fn nees(epoch: &LandingEpoch) -> f64 {

@@ -1,7 +1,7 @@
 //! The reference Monte Carlo: bearings once a second, initial errors of ±1000 m, ±10 m/s, ±2°. The numbers are those of
 //! the audited reference simulation of 300 runs.
 
-use super::descent::{Case, Epoch, Mistake, REFERENCE, fly};
+use super::reference_run::{Case, Epoch, Mistake, REFERENCE, fly};
 use opnav::navigation::landing::FilterKind;
 use opnav::navigation::landmark::Selector;
 use opnav::stats::ConsistencyBounds;

@@ -1,6 +1,5 @@
 //! The designated point leads to somewhere else for many images: the filter leaves it out, says so, and lands.
 
-use super::descent::pose_error;
 use super::flight::{FLIGHT, camera, fly, site_from_lander, truth_at_ns};
 use nalgebra::{SVector, Vector2, Vector3};
 use opnav::navigation::landing::{LandingConfig, LandingEpoch, LandingInput, LandingResult, navigate};
@@ -9,7 +8,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 fn error(epoch: &LandingEpoch) -> SVector<f64, 9> {
-    pose_error(&truth_at_ns(epoch.t_ns), &epoch.site_from_lander, &epoch.lander_velocity_in_site_m_s)
+    truth_at_ns(epoch.t_ns).error_of(&epoch.site_from_lander, &epoch.lander_velocity_in_site_m_s)
 }
 
 fn horizontal_m(epoch: &LandingEpoch) -> f64 {
