@@ -1,5 +1,6 @@
 //! Whole stories of the room `pipeline`: what they write, and what comes of it.
 
+mod accuracy;
 #[cfg(feature = "report")]
 mod end_to_end;
 mod land_by_map;

@@ -9,7 +9,7 @@ use opnav::settings::Layers;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-fn dataset(scenario: &str, seed: u64, folder: &Path) -> PathBuf {
+pub fn dataset(scenario: &str, seed: u64, folder: &Path) -> PathBuf {
     let out = folder.join("images");
     let request = SynthesizeRequest {
         scenario: Path::new(env!("CARGO_MANIFEST_DIR")).join("datasets").join(scenario),
@@ -23,17 +23,17 @@ fn dataset(scenario: &str, seed: u64, folder: &Path) -> PathBuf {
     out
 }
 
-fn navigate_descent(images: &Path, out: &Path) {
+pub fn navigate_descent(images: &Path, out: &Path) {
     let request = LandRequest { folder: images.into(), out: out.into(), settings: LandSettings::default() };
     land(&request, &Silent).expect("the descent is navigated");
 }
 
-fn estimate_tumbling(images: &Path, out: &Path) {
+pub fn estimate_tumbling(images: &Path, out: &Path) {
     let request = TumbleRequest { folder: images.into(), out: out.into(), settings: TumbleSettings::default() };
     tumble(&request, &Silent).expect("the motion is estimated");
 }
 
-fn value(metrics: &Metrics, name: &str) -> f64 {
+pub fn value(metrics: &Metrics, name: &str) -> f64 {
     metrics.figure(name).unwrap_or_else(|| panic!("no figure '{name}' in {metrics:?}"))
 }
 
@@ -175,46 +175,4 @@ fn a_resumed_data_set_has_the_same_bytes() {
     assert!(manifest("whole") == manifest("broken"), "the manifests differ");
     let other = SynthesizeRequest { layers: Layers::from(&["seed=9".into()][..]), ..request("broken", true) };
     assert!(synthesize(&other, &Silent).is_err(), "another scenario was mixed into the data set");
-}
-
-/// Final errors of both missions from pixels over several seeds, as a table.
-#[test]
-#[ignore = "minutes: renders and navigates ten sequences"]
-fn accuracy_from_pixels() {
-    println!("mission   seed | figures, at the last picture (landing) or over the arc (tumbling)");
-    for seed in 1..=5 {
-        let folder = TempDir::new().expect("a temporary folder");
-        let images = dataset("mars_descent_small.toml", seed, folder.path());
-        let result = folder.path().join("landing");
-        navigate_descent(&images, &result);
-        let m = evaluate_result(&result, &images).expect("the result is evaluated");
-        println!(
-            "landing   {seed:4} | above the tracked point: horizontal {:.3} m, z {:+.3} m; speed {:.4} m/s; roll {:+.4}°, pitch \
-             {:+.4}°; from the site's origin {:.2} m; NEES/9 {:.2}; pair rotation median {:.4}°, 95 % {:.3}°",
-            value(&m, "last_picture_from_tracked_point_horizontal_error"),
-            value(&m, "last_picture_from_tracked_point_z_error"),
-            value(&m, "last_picture_speed_error"),
-            value(&m, "last_picture_roll_error"),
-            value(&m, "last_picture_pitch_error"),
-            value(&m, "last_picture_horizontal_error"),
-            value(&m, "nees_per_dof_mean"),
-            value(&m, "pair_rotation_error_median"),
-            value(&m, "pair_rotation_error_p95"),
-        );
-        let folder = TempDir::new().expect("a temporary folder");
-        let images = dataset("tumbling_small.toml", seed, folder.path());
-        let result = folder.path().join("tumbling");
-        estimate_tumbling(&images, &result);
-        let m = evaluate_result(&result, &images).expect("the result is evaluated");
-        println!(
-            "tumbling  {seed:4} | r.m.s. attitude {:.3}°, rate {:.4} °/s; worst inertia ratio {:.4}; NEES/6 {:.1}; pair rotation \
-             median {:.3}°, 95 % {:.3}°",
-            value(&m, "attitude_error_rms"),
-            value(&m, "rate_error_rms"),
-            value(&m, "worst_inertia_error"),
-            value(&m, "nees_per_dof_mean"),
-            value(&m, "pair_rotation_error_median"),
-            value(&m, "pair_rotation_error_p95"),
-        );
-    }
 }
