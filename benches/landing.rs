@@ -2,31 +2,36 @@
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use nalgebra::{Isometry3, SMatrix, UnitQuaternion, Vector3};
-use opnav::campaign::{CampaignOptions, run_campaign};
+use opnav::campaign::{CampaignOptions, StepNoise, TrueState, run_campaign};
 use opnav::dataset::InitialState;
-use opnav::geometry::so3::exp;
 use opnav::navigation::filter::Gate;
 use opnav::navigation::landing::{
     BearingObservation, CorrectionModel, DescentEstimate, FilterKind, ImuIncrement, InitializationModel, LandingConfig,
     correct, initial_estimate, predict, with_landmark,
 };
 use opnav::navigation::landmark::{GroundPrior, Selector, Triangle, Viewpoint, bearing_matrix, golden_section};
+use opnav::scene::{DescentMotion, GuidanceConfig, PolynomialGuidance};
 use opnav::stats::random_stream;
 use std::hint::black_box;
 
-/// The reference descent at 60 s.
+/// The reference descent, as the campaigns simulate it.
+fn truth(t_s: f64) -> TrueState {
+    TrueState::at(&DescentMotion::new(PolynomialGuidance::new(&GuidanceConfig::default())), t_s)
+}
+
+/// The descent at 60 s with one unknown landmark.
 fn estimate() -> DescentEstimate {
-    let attitude = UnitQuaternion::from_euler_angles(-0.05, 0.12, 0.0);
+    let now = truth(60.0);
     let believed = InitialState {
         t_ns: 0,
-        site_from_lander: Isometry3::from_parts(Vector3::new(995.38, 2453.363, 3030.342).into(), attitude),
-        lander_velocity_in_site_m_s: Vector3::new(-24.0, -48.0, -42.0),
+        site_from_lander: Isometry3::from_parts(now.position_m.into(), now.lander_from_site.inverse()),
+        lander_velocity_in_site_m_s: now.velocity_m_s,
         sigma_position_m: 60.0,
         sigma_velocity_m_s: 1.5,
         sigma_attitude_rad: 2e-3,
     };
     let prior = initial_estimate(&believed, &LandingConfig::default());
-    let down = nalgebra::Unit::new_normalize(attitude.inverse() * Vector3::new(0.3, 0.2, -1.0));
+    let down = nalgebra::Unit::new_normalize(now.lander_from_site * Vector3::new(0.3, 0.2, -1.0));
     let model = InitializationModel {
         kind: FilterKind::Hybrid,
         camera_in_lander_m: Vector3::zeros(),
@@ -35,15 +40,10 @@ fn estimate() -> DescentEstimate {
     with_landmark(&prior, &BearingObservation::from_sigma(1, down, 1e-3), 0, &model).expect("it looks down")
 }
 
+/// The second after that.
 fn increment() -> ImuIncrement {
-    ImuIncrement {
-        duration_s: 1.0,
-        before_from_after: exp(&Vector3::new(1e-3, -2e-3, 0.0)),
-        velocity_in_before_m_s: Vector3::new(0.0, 0.0, 4.2),
-        position_in_before_m: Vector3::new(0.0, 0.0, 2.1),
-        covariance: SMatrix::identity() * 1e-9,
-        ..ImuIncrement::identity()
-    }
+    let exact = truth(60.0).increment_to(&truth(61.0), 1.0, &LandingConfig::default().planet());
+    StepNoise::of(&CampaignOptions::default()).stated(&exact)
 }
 
 /// Prediction by an increment and correction by the bearings of one known and one unknown landmark.
@@ -79,11 +79,12 @@ fn view() -> Viewpoint {
     let mut covariance = SMatrix::<f64, 9, 9>::identity();
     covariance.fixed_view_mut::<3, 3>(0, 0).fill_diagonal(100.0 * 100.0);
     covariance.fixed_view_mut::<3, 3>(6, 6).fill_diagonal(1e-4);
+    let now = truth(60.0);
     Viewpoint {
-        lander_in_site_m: Vector3::new(995.380, 2453.363, 3030.342),
-        lander_velocity_in_site_m_s: Vector3::new(-24.4, -48.6, -42.9),
-        specific_force_in_site_m_s2: Vector3::new(0.5, 0.5, 4.5),
-        gravity_in_site_m_s2: Vector3::new(0.0, 0.0, -3.711),
+        lander_in_site_m: now.position_m,
+        lander_velocity_in_site_m_s: now.velocity_m_s,
+        specific_force_in_site_m_s2: now.lander_from_site.inverse() * increment().velocity_in_before_m_s,
+        gravity_in_site_m_s2: LandingConfig::default().planet().gravity_in_site_m_s2,
         interval_s: 1.0,
         sigma_bearing_rad: 1e-3,
         covariance,

@@ -1,4 +1,3 @@
 //! Tests of the room `observations`.
 
-#[cfg(feature = "vision")]
 mod files;

@@ -6,3 +6,4 @@ mod plot;
 #[cfg(feature = "scene")]
 mod reference;
 mod sample;
+mod track_overlay;

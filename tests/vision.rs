@@ -1,6 +1,7 @@
 //! The image front end.
 
 pub mod accuracy;
+mod config;
 mod features;
 #[cfg(feature = "render")]
 mod map;

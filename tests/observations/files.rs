@@ -1,11 +1,7 @@
-//! Result files, configuration and overlays.
+//! Files of tracks and of rotations of pairs.
 
-use image::{GrayImage, Rgb};
 use nalgebra::{Matrix3, UnitQuaternion, Vector2, Vector3};
 use opnav::observations::*;
-use opnav::report::{contact_sheet, draw_tracks};
-use opnav::vision::*;
-use std::collections::HashMap;
 
 fn observation(t_ns: i64, track_id: u64) -> TrackObservation {
     let pixel_px = Vector2::new(1.0 / 3.0 + track_id as f64, 40.25);
@@ -92,30 +88,4 @@ fn malformed_results_are_refused_with_file_and_line() {
         assert!(error.contains("line 2") && error.contains(word), "{error}");
     }
     assert!(read_tracks(&folder.path().join("absent.csv")).unwrap_err().to_string().contains("absent.csv"));
-}
-
-#[test]
-fn the_configuration_refuses_unknown_keys_and_values_out_of_range() {
-    let config: FrontEndConfig = toml::from_str("mode = \"fixed-center\"\n[detector]\nmax_features = 500\n").unwrap();
-    assert_eq!((config.mode, config.detector.max_features), (FrontEndMode::FixedCenter, 500));
-    assert!(toml::from_str::<FrontEndConfig>("speed = 3").is_err());
-    assert!(FrontEndConfig::default().validate().is_ok());
-    let mut wrong = FrontEndConfig::default();
-    wrong.detector.block_px = 4;
-    assert!(wrong.validate().unwrap_err().to_string().contains("detector.block_px is 4"));
-}
-
-#[test]
-fn overlays_show_tracks_and_the_designated_point() {
-    let picture = GrayImage::new(64, 48);
-    let here = TrackObservation { pixel_px: Vector2::new(30.0, 20.0), ..observation(0, 5) };
-    let point = TrackObservation { pixel_px: Vector2::new(50.0, 30.0), ..observation(0, 0) };
-    let previous = HashMap::from([(5, Vector2::new(10.0, 20.0))]);
-    let canvas = draw_tracks(&picture, &[here, point], &previous, Some(&point));
-    assert_eq!(canvas.dimensions(), (64, 48));
-    assert_ne!(*canvas.get_pixel(20, 20), Rgb([0, 0, 0]), "the flow line");
-    assert_eq!(*canvas.get_pixel(50, 30), Rgb([255, 60, 60]), "the cross");
-    assert_eq!(*canvas.get_pixel(3, 3), Rgb([0, 0, 0]));
-    let sheet = contact_sheet(&[canvas.clone(), canvas.clone(), canvas], 2, 32);
-    assert_eq!(sheet.dimensions(), (68, 52));
 }

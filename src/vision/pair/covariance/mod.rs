@@ -3,7 +3,9 @@
 mod cluster_robust;
 mod correlated_error;
 mod correlated_modes;
+mod elimination;
 
 pub use cluster_robust::{cells, covariance_of_rotation, sums_by_cell};
-pub use correlated_error::{Size, White, refine, spread};
+pub use correlated_error::{Size, White, refine};
 pub use correlated_modes::COEFFICIENTS;
+pub use elimination::spread;
