@@ -12,7 +12,6 @@ use crate::observations::FrameStatus;
 use crate::settings::Settings;
 use crate::vision::{FrameReport, FrontEnd, FrontEndConfig, TrackInputs, track_sequence};
 use image::GrayImage;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 

@@ -1,6 +1,5 @@
 //! The settings of the whole front end.
 
-use opnav::observations::*;
 use opnav::vision::*;
 
 #[test]
