@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         [first, second, fov_deg] => {
             (image::open(first)?.into_luma8(), image::open(second)?.into_luma8(), fov_deg.parse()?)
         }
-        _ => made_pictures(UnitQuaternion::from_scaled_axis(
+        _ => made_images(UnitQuaternion::from_scaled_axis(
             Vector3::new(0.01, -0.02, 0.03).normalize() * 2f64.to_radians(),
         )),
     };
@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Two pictures of a surface at infinity, before and after a turn of the camera.
-fn made_pictures(camera_to_from_camera_from: UnitQuaternion<f64>) -> (GrayImage, GrayImage, f64) {
+fn made_images(camera_to_from_camera_from: UnitQuaternion<f64>) -> (GrayImage, GrayImage, f64) {
     let (side_px, fov_deg) = (400, 40.0);
     let camera = Camera::from_fov(side_px, side_px, f64::to_radians(fov_deg));
     let speck =

@@ -9,7 +9,7 @@ use opnav::dataset::truth::read_lander_states;
 use opnav::dataset::{CameraSource, ImageSequence, read_designated, read_imu, read_initial_state};
 use opnav::navigation::landing::{LandingConfig, LandingInput, image_rotations, navigate};
 use opnav::pipeline::{Silent, SynthesizeRequest, synthesize};
-use opnav::vision::{FrontEndConfig, TrackInputs, drift_a_picture_px, track_sequence};
+use opnav::vision::{FrontEndConfig, TrackInputs, drift_per_image_px, track_sequence};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         known: Vec::new(),
     };
     let mut config =
-        LandingConfig { designated_drift_px: drift_a_picture_px(&seen.designated), ..LandingConfig::from_pixels() };
+        LandingConfig { designated_drift_px: drift_per_image_px(&seen.designated), ..LandingConfig::from_pixels() };
     config.designated_sigma_px =
         seen.designated.first().map_or(config.designated_sigma_px, |first| first.step_sigma_px);
     let flight = navigate(&input, &config, &|_| ())?;

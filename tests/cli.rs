@@ -167,7 +167,7 @@ fn a_folder_in_use_is_left_alone() {
 }
 
 #[test]
-fn a_folder_without_pictures_is_named() {
+fn a_folder_without_images_is_named() {
     let folder = TempDir::new().expect("a temporary folder");
     assert_names(
         &tracking_error(folder.path(), &["--fov-deg", "60"]),
@@ -201,7 +201,7 @@ fn overlay_brightness(bits: u32, stated: &str) -> f64 {
 }
 
 #[test]
-fn overlays_of_12_bit_pictures_are_as_bright_as_those_of_16_bits() {
+fn overlays_of_12_bit_images_are_as_bright_as_those_of_16_bits() {
     let deep = overlay_brightness(16, "");
     assert!((overlay_brightness(12, "bits: 12\n") - deep).abs() < 2.0, "{deep}");
     assert!((overlay_brightness(12, "") - deep).abs() < 2.0, "bits that are not stated are found");
@@ -209,21 +209,21 @@ fn overlays_of_12_bit_pictures_are_as_bright_as_those_of_16_bits() {
 }
 
 #[test]
-fn one_picture_is_too_few() {
+fn one_image_is_too_few() {
     let folder = image_folder();
     std::fs::remove_file(folder.path().join("a2.png")).expect("the picture was there");
     assert_names(&tracking_error(folder.path(), &[]), &["two"]);
 }
 
 #[test]
-fn an_unreadable_picture_is_named() {
+fn an_unreadable_image_is_named() {
     let folder = image_folder();
     std::fs::write(folder.path().join("a2.png"), b"not a picture").expect("the file is written");
     assert_names(&tracking_error(folder.path(), &[]), &["a2.png", "cannot be read"]);
 }
 
 #[test]
-fn a_picture_of_the_wrong_size_is_named() {
+fn a_image_of_the_wrong_size_is_named() {
     let folder = image_folder();
     picture(&folder.path().join("a2.png"), 32, 64);
     assert_names(&tracking_error(folder.path(), &[]), &["a2.png", "32x64", "64x64"]);

@@ -2,11 +2,11 @@
 
 mod bench;
 mod consistency;
+#[cfg(feature = "scene")]
+mod image;
 mod landing;
 mod metrics;
 mod pairs;
-#[cfg(feature = "scene")]
-mod picture;
 mod refusals;
 mod tracks;
 mod tumbling;

@@ -9,8 +9,8 @@ mod cameras;
 mod campaign;
 #[cfg(feature = "scene")]
 mod found;
+mod images;
 mod mutation;
-mod pictures;
 mod results;
 #[cfg(feature = "scene")]
 mod scenarios;

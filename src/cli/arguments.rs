@@ -57,7 +57,7 @@ pub fn word<T: JsonSchema + DeserializeOwned + Clone + Send + Sync + 'static>() 
     PossibleValuesParser::new(words).map(|word| serde_json::from_value(word.into()).expect("one of the possible words"))
 }
 
-/// Which pictures of a folder are taken, and what is known of them.
+/// Which images of a folder are taken, and what is known of them.
 #[derive(Debug, clap::Args)]
 pub struct InputArguments {
     /// Camera file in EuRoC's form [default: `sensor.yaml` of the folder].
@@ -66,19 +66,19 @@ pub struct InputArguments {
     /// Horizontal field of view in degrees of a pinhole camera without distortion.
     #[arg(long, value_name = "DEG", value_parser = field_of_view_deg)]
     fov_deg: Option<f64>,
-    /// List of `timestamp [ns],filename` for pictures whose names are no time stamps.
+    /// List of `timestamp [ns],filename` for images whose names are no time stamps.
     #[arg(long, value_name = "LIST.CSV", conflicts_with = "rate_hz")]
     times: Option<PathBuf>,
-    /// Pictures a second, in the order of their names.
+    /// Images a second, in the order of their names.
     #[arg(long, value_name = "HZ", value_parser = positive_number)]
     rate_hz: Option<f64>,
-    /// Take every N-th picture [default: 1].
+    /// Take every N-th image [default: 1].
     #[arg(long, value_name = "N", value_parser = positive)]
     every: Option<usize>,
-    /// Pictures to take, counted from 0, without B.
+    /// Images to take, counted from 0, without B.
     #[arg(long, value_name = "A..B", value_parser = frame_range)]
     frames: Option<Range<usize>>,
-    /// Grey picture of 8 bits and the camera's size, 0 where not to look (parts of the spacecraft).
+    /// Grey image of 8 bits and the camera's size, 0 where not to look (parts of the spacecraft).
     #[arg(long, value_name = "FILE")]
     mask: Option<PathBuf>,
 }
@@ -102,7 +102,7 @@ impl InputArguments {
     }
 }
 
-/// How pictures are tracked.
+/// How images are tracked.
 #[derive(Debug, clap::Args)]
 pub struct FrontEndArguments {
     /// What finds features [default: harris].

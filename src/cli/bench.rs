@@ -19,7 +19,7 @@ enum Story {
     Render(RenderArguments),
 }
 
-/// Time the drawing of a scenario's pictures; nothing is written.
+/// Time the drawing of a scenario's images; nothing is written.
 #[derive(Debug, clap::Args)]
 struct RenderArguments {
     /// Scenario file.

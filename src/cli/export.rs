@@ -13,7 +13,7 @@ pub struct Arguments {
     /// The format.
     #[arg(long, value_enum, value_name = "FORMAT")]
     to: FormatName,
-    /// Folder of the files; they name pictures relative to the data set.
+    /// Folder of the files; they name images relative to the data set.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
 }

@@ -7,7 +7,7 @@ use super::settings_arguments::SettingsArguments;
 use opnav::pipeline::{LandRequest, LandSettings, PipelineError, Selector, land};
 use std::path::PathBuf;
 
-/// Navigate a descent by its pictures and its IMU.
+/// Navigate a descent by its images and its IMU.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// A data set with imu0/, designated.csv and initial_state.csv.
@@ -15,7 +15,7 @@ pub struct Arguments {
     /// Folder of the result.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Folder of a map, as `opnav map` makes it: known points in every picture, which make yaw observable.
+    /// Folder of a map, as `opnav map` makes it: known points in every image, which make yaw observable.
     #[arg(long, value_name = "DIR")]
     map: Option<PathBuf>,
     /// How the unknown landmark is chosen [default: depth-error].

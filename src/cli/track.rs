@@ -1,4 +1,4 @@
-//! `opnav track`: any folder of pictures to tracks and relative rotations.
+//! `opnav track`: any folder of images to tracks and relative rotations.
 
 use super::arguments::{FrontEndArguments, InputArguments};
 use super::progress::Terminal;
@@ -6,10 +6,10 @@ use super::settings_arguments::SettingsArguments;
 use opnav::pipeline::{PipelineError, Progress, TrackRequest, TrackSettings, track};
 use std::path::PathBuf;
 
-/// Track Harris features through a folder of pictures and recover the rotation of each pair.
+/// Track Harris features through a folder of images and recover the rotation of each pair.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// A data set, a EuRoC folder, or a folder of pictures.
+    /// A data set, a EuRoC folder, or a folder of images.
     folder: PathBuf,
     /// Folder of the result.
     #[arg(long, value_name = "DIR")]

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 /// Estimate attitude, rate and inertia ratios of a tumbling small body.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// A data set or a folder of pictures of one body, taken by a camera that does not turn.
+    /// A data set or a folder of images of one body, taken by a camera that does not turn.
     folder: PathBuf,
     /// Folder of the result.
     #[arg(long, value_name = "DIR")]

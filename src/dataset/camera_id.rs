@@ -6,7 +6,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// A camera of a data set: `cam0`, or `node1/cam0` where several spacecraft take pictures.
+/// A camera of a data set: `cam0`, or `node1/cam0` where several spacecraft take images.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct CameraId {
     /// Number of the spacecraft, from 0; `None` where there is only one.
@@ -21,13 +21,13 @@ impl CameraId {
         CameraId { node: None, number }
     }
 
-    /// The folder of pictures and `sensor.yaml` under a data set's root.
+    /// The folder of images and `sensor.yaml` under a data set's root.
     pub fn folder(&self, root: &Path) -> PathBuf {
         root.join(self.to_string())
     }
 
-    /// Path of a picture relative to the data set's root, with `/`.
-    pub fn picture(&self, t_ns: i64) -> String {
+    /// Path of an image relative to the data set's root, with `/`.
+    pub fn image(&self, t_ns: i64) -> String {
         format!("{self}/data/{t_ns}.png")
     }
 

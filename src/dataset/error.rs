@@ -42,14 +42,14 @@ pub enum DatasetError {
         /// What is wrong and what to do.
         problem: String,
     },
-    /// A picture of the wrong size.
+    /// An image of the wrong size.
     #[error(
         "{} is {found_width_px}x{found_height_px} px, but its camera is {width_px}x{height_px} px: give the \
          camera file of these pictures or remove the picture",
         path.display()
     )]
     WrongSize {
-        /// The picture.
+        /// The image.
         path: PathBuf,
         /// Its width in px.
         found_width_px: u32,

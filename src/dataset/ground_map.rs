@@ -19,8 +19,8 @@ pub struct MapLevel {
     /// Place (x, y) in the site frame of the centre of the pixel (0, 0), m.
     pub first_in_site_m: Vector2<f64>,
     /// The orthoimage: brightness on one linear scale for all levels.
-    pub picture: ImageBuffer<Luma<u16>, Vec<u16>>,
-    /// Height in the site frame at each pixel's centre, m, row by row; NaN where nothing is known, of the picture neither.
+    pub image: ImageBuffer<Luma<u16>, Vec<u16>>,
+    /// Height in the site frame at each pixel's centre, m, row by row; NaN where nothing is known, of the image neither.
     pub heights_m: Vec<f32>,
     /// 1σ of the level's own error along each horizontal axis, m.
     pub sigma_horizontal_m: f64,
@@ -31,7 +31,7 @@ pub struct MapLevel {
 impl MapLevel {
     /// Width and height in px.
     pub fn size_px(&self) -> (u32, u32) {
-        self.picture.dimensions()
+        self.image.dimensions()
     }
 
     /// Column and row of a place (x, y) in the site frame, m; outside of the level, too.

@@ -3,8 +3,8 @@
 //! ```toml
 //! format = 1
 //! [[levels]]                        # from fine to coarse
-//! picture = "ortho_0.png"           # grey, 8 or 16 bits, one linear scale for all levels
-//! heights = "heights_0.tiff"        # float32, m in the site frame, NaN where nothing is known; as large as the picture
+//! image = "ortho_0.png"           # grey, 8 or 16 bits, one linear scale for all levels
+//! heights = "heights_0.tiff"        # float32, m in the site frame, NaN where nothing is known; as large as the image
 //! metres_per_px = 0.5
 //! first_x_m = -500.0                # site frame: centre of the pixel (0, 0); columns run along +x, rows along -y
 //! first_y_m = 500.0
@@ -14,7 +14,7 @@
 
 use super::error::DatasetError;
 use super::ground_map::{GroundMap, MapLevel};
-use super::images::{RawPicture, encode_grey_png, encode_scalar_tiff, read_depth_tiff, read_header, read_numbers};
+use super::images::{RawImage, encode_grey_png, encode_scalar_tiff, read_depth_tiff, read_header, read_numbers};
 use super::storage::write_atomically;
 use image::{DynamicImage, ImageBuffer};
 use nalgebra::Vector2;
@@ -79,7 +79,7 @@ pub fn write_ground_map(folder: &Path, map: &GroundMap) -> Result<(), DatasetErr
             sigma_vertical_m: level.sigma_vertical_m,
         };
         let [picture, heights] = [&entry.picture, &entry.heights].map(|name| folder.join(name));
-        let bytes = encode_grey_png(&picture, &DynamicImage::ImageLuma16(level.picture.clone()))?;
+        let bytes = encode_grey_png(&picture, &DynamicImage::ImageLuma16(level.image.clone()))?;
         write_atomically(&picture, |w| w.write_all(&bytes))?;
         let bytes = encode_scalar_tiff(&heights, level.size_px(), &level.heights_m)?;
         write_atomically(&heights, |w| w.write_all(&bytes))?;
@@ -132,30 +132,27 @@ impl LevelEntry {
     }
 
     fn read(&self, folder: &Path) -> Result<MapLevel, DatasetError> {
-        let [picture_path, heights_path] = [&self.picture, &self.heights].map(|name| folder.join(name));
+        let [image_path, heights_path] = [&self.picture, &self.heights].map(|name| folder.join(name));
         let unusable = |path: &Path, problem: String| DatasetError::Unusable { path: path.into(), problem };
-        for path in [&picture_path, &heights_path] {
+        for path in [&image_path, &heights_path] {
             if !path.is_file() {
                 let cure = format!("{FILE} names it: put it there, or take its table [[levels]] out");
                 return Err(DatasetError::Missing { path: path.clone(), cure });
             }
         }
-        let header = read_header(&picture_path)?;
+        let header = read_header(&image_path)?;
         let (width, height) = header.size_px;
         if width < 2 || height < 2 {
-            return Err(unusable(&picture_path, format!("it is {width}x{height} px: a map needs 2x2")));
+            return Err(unusable(&image_path, format!("it is {width}x{height} px: a map needs 2x2")));
         }
-        let picture = match read_numbers(&picture_path, &header)? {
-            RawPicture::Deep(deep) => deep,
-            RawPicture::Shallow(shallow) => {
+        let picture = match read_numbers(&image_path, &header)? {
+            RawImage::Deep(deep) => deep,
+            RawImage::Shallow(shallow) => {
                 let numbers = shallow.iter().map(|byte| 257 * u16::from(*byte)).collect();
                 ImageBuffer::from_raw(width, height, numbers).expect("one number a pixel")
             }
-            RawPicture::Real(_) => {
-                return Err(unusable(
-                    &picture_path,
-                    "it holds floating-point numbers: save it with 8 or 16 bits".into(),
-                ));
+            RawImage::Real(_) => {
+                return Err(unusable(&image_path, "it holds floating-point numbers: save it with 8 or 16 bits".into()));
             }
         };
         let heights = read_depth_tiff(&heights_path)?;
@@ -172,7 +169,7 @@ impl LevelEntry {
         Ok(MapLevel {
             metres_per_px: self.metres_per_px,
             first_in_site_m: Vector2::new(self.first_x_m, self.first_y_m),
-            picture,
+            image: picture,
             heights_m,
             sigma_horizontal_m: self.sigma_horizontal_m,
             sigma_vertical_m: self.sigma_vertical_m,

@@ -1,4 +1,4 @@
-//! What a lander believes of itself at the first frame, before any picture: `initial_state.csv`.
+//! What a lander believes of itself at the first frame, before any image: `initial_state.csv`.
 
 use super::error::DatasetError;
 use super::storage::{TimedRow, read_timed_table, write_timed_table};

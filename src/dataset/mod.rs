@@ -25,7 +25,7 @@ pub use exchange::{
 pub use ground_map::{GroundMap, MapLevel};
 pub use ground_map_file::{read_ground_map, write_ground_map};
 pub use images::{
-    CameraSensor, CameraSource, Frame, FrameTimes, GreyLevels, GreyPicture, ImageSequence, encode_grey_png,
+    CameraSensor, CameraSource, Frame, FrameTimes, GreyRaster, ImageSequence, IntensityScale, encode_grey_png,
     encode_scalar_tiff, encode_vector_tiff, read_camera_sensor, read_depth_tiff, read_mask_png, read_normals_tiff,
     write_camera_sensor, write_depth_tiff, write_grey_png,
 };

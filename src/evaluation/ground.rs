@@ -10,13 +10,13 @@ use std::path::Path;
 /// Where the designated point's track began and ended on the true surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrackedGround {
-    /// Time of the last picture in which the point was tracked, ns.
+    /// Time of the last image in which the point was tracked, ns.
     pub last_t_ns: i64,
     /// Surface point (m, site) under the first observation.
     pub first_in_site_m: Option<Vector3<f64>>,
     /// Surface point (m, site) under the last observation.
     pub last_in_site_m: Option<Vector3<f64>>,
-    /// Greatest distance in px of an observation from where the first point lies in the picture, over the pictures taken
+    /// Greatest distance in px of an observation from where the first point lies in the image, over the images taken
     /// from further away than [`TrackedGround::FAR_M`].
     pub far_error_px: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! Errors of a landing at the last picture and at touchdown, and the verdict there.
+//! Errors of a landing at the last image and at touchdown, and the verdict there.
 
 use super::error::EvaluationError;
 use super::ground::{TrackedGround, TrackedPixel, tracked_ground};
@@ -8,7 +8,7 @@ use super::true_camera::TrueCamera;
 use nalgebra::Vector3;
 use std::path::Path;
 
-/// Adds the errors at the last picture and at the end, from the site's origin and from the ground point really tracked.
+/// Adds the errors at the last image and at the end, from the site's origin and from the ground point really tracked.
 pub fn add_final_errors(
     errors: &[LandingErrors],
     root: &Path,
@@ -17,8 +17,8 @@ pub fn add_final_errors(
 ) -> Result<(), EvaluationError> {
     let end = errors.last().expect("there is an epoch");
     add_state_errors("final", end, metrics);
-    let last_picture_ns = tracks.iter().map(|o| o.t_ns).max();
-    let last_seen = last_picture_ns.and_then(|t_ns| errors.iter().rev().find(|e| e.t_ns <= t_ns));
+    let last_image_ns = tracks.iter().map(|o| o.t_ns).max();
+    let last_seen = last_image_ns.and_then(|t_ns| errors.iter().rev().find(|e| e.t_ns <= t_ns));
     match last_seen {
         Some(epoch) => {
             metrics.add("last_picture_time", epoch.t_s, "s");

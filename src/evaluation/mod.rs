@@ -8,6 +8,8 @@ mod consistency;
 mod error;
 mod evaluate;
 mod ground;
+#[cfg(feature = "scene")]
+mod image;
 mod landing;
 mod landing_end;
 mod landing_epochs;
@@ -15,8 +17,6 @@ mod landing_errors;
 mod metrics;
 mod named_table;
 mod pairs;
-#[cfg(feature = "scene")]
-mod picture;
 mod spread;
 mod summary;
 mod tracks;
@@ -28,10 +28,10 @@ mod tumbling_epochs;
 pub use consistency::{Consistency, NormalizedSample, effective_samples};
 pub use error::EvaluationError;
 pub use evaluate::evaluate;
+#[cfg(feature = "scene")]
+pub use image::ImageStatistics;
 pub use metrics::{Figure, Metrics, Series, Verdict};
 pub use named_table::NamedTable;
-#[cfg(feature = "scene")]
-pub use picture::PictureStatistics;
 pub use spread::{median, percentile, root_mean_square};
 pub use summary::{Mission, Summary};
 pub use true_motion::{asteroid_state_at, lander_state_at};

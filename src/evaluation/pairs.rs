@@ -1,4 +1,4 @@
-//! Errors of the rotations between pairs of pictures.
+//! Errors of the rotations between pairs of images.
 
 use super::consistency::NormalizedSample;
 use super::error::EvaluationError;

@@ -6,11 +6,11 @@ use nalgebra::{Isometry3, Point3, Vector2, Vector3};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-/// A picture's true depth.
+/// An image's true depth.
 pub struct TrueDepth(image::ImageBuffer<image::Luma<f32>, Vec<f32>>);
 
 impl TrueDepth {
-    /// z-depth in m at a pixel, bilinear between pixel centres; `None` outside the picture and beside the edge of
+    /// z-depth in m at a pixel, bilinear between pixel centres; `None` outside the image and beside the edge of
     /// what was hit.
     pub fn at(&self, pixel_px: &Vector2<f64>) -> Option<f64> {
         let (width, height) = self.0.dimensions();

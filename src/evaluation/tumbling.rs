@@ -1,7 +1,7 @@
 //! Errors of a small body's attitude, rate and inertia ratios.
 //!
 //! The estimator's asteroid axes are the camera's axes at the start `t0`; the truth's are the mesh's. The two differ by
-//! a constant rotation that no picture can tell, so the truth is turned into the estimator's axes by its own attitude at
+//! a constant rotation that no image can tell, so the truth is turned into the estimator's axes by its own attitude at
 //! `t0`: `estimate_from_truth = asteroid_from_inertial(t0)⁻¹`. Which axes the truth happens to use has no effect.
 
 use super::consistency::NormalizedSample;
@@ -18,7 +18,7 @@ use std::path::Path;
 
 /// True less estimated state at one epoch: the attitude error in inertial axes (the camera's), the rate error in the
 /// estimator's asteroid axes.
-struct TumblingError {
+struct TumblingErrors {
     t_s: f64,
     attitude_rad: Vector3<f64>,
     rate_rad_s: Vector3<f64>,
@@ -33,7 +33,7 @@ struct AlignedTruth {
     inertia: [f64; 5],
 }
 
-/// Adds every figure and curve of a tumbling result; `start_ns` is the time of the first picture that was used.
+/// Adds every figure and curve of a tumbling result; `start_ns` is the time of the first image that was used.
 pub fn evaluate_tumbling(
     result: &Path,
     root: &Path,
@@ -43,7 +43,7 @@ pub fn evaluate_tumbling(
     let epochs = read_tumbling_epochs(result)?;
     let truth = aligned_truth(result, root, start_ns)?;
     let start_of_truth_ns = truth.states[0].t_ns;
-    let errors: Vec<TumblingError> =
+    let errors: Vec<TumblingErrors> =
         epochs.iter().filter_map(|epoch| tumbling_error(&truth, epoch, start_of_truth_ns)).collect();
     if errors.is_empty() {
         return Err(EvaluationError::no_common_time(result, root));
@@ -93,7 +93,7 @@ fn inertia_ratios(inertia: &AsteroidInertia, estimate_from_truth: &UnitQuaternio
     [ratio[(0, 0)], ratio[(1, 1)], ratio[(0, 1)], ratio[(0, 2)], ratio[(1, 2)]]
 }
 
-fn tumbling_error(truth: &AlignedTruth, epoch: &TumblingEpoch, start_of_truth_ns: i64) -> Option<TumblingError> {
+fn tumbling_error(truth: &AlignedTruth, epoch: &TumblingEpoch, start_of_truth_ns: i64) -> Option<TumblingErrors> {
     let state = asteroid_state_at(&truth.states, epoch.t_ns)?;
     let attitude_rad = state.asteroid_from_inertial.minus(&epoch.asteroid_from_inertial);
     let rate_rad_s = state.rate_in_asteroid_rad_s - epoch.rate_in_asteroid_rad_s;
@@ -101,7 +101,7 @@ fn tumbling_error(truth: &AlignedTruth, epoch: &TumblingEpoch, start_of_truth_ns
     error.fixed_rows_mut::<3>(0).copy_from(&attitude_rad);
     error.fixed_rows_mut::<3>(3).copy_from(&rate_rad_s);
     let t_s = (epoch.t_ns - start_of_truth_ns) as f64 * 1e-9;
-    Some(TumblingError {
+    Some(TumblingErrors {
         t_s,
         attitude_rad,
         rate_rad_s,
@@ -110,10 +110,10 @@ fn tumbling_error(truth: &AlignedTruth, epoch: &TumblingEpoch, start_of_truth_ns
     })
 }
 
-fn add_series(errors: &[TumblingError], metrics: &mut Metrics) {
+fn add_series(errors: &[TumblingErrors], metrics: &mut Metrics) {
     for axis in 0..6 {
         let (group, unit) = if axis < 3 { ("attitude", "deg") } else { ("rate", "deg/s") };
-        let value = |e: &TumblingError| if axis < 3 { e.attitude_rad[axis] } else { e.rate_rad_s[axis - 3] };
+        let value = |e: &TumblingErrors| if axis < 3 { e.attitude_rad[axis] } else { e.rate_rad_s[axis - 3] };
         let sigma: Option<Vec<f64>> = errors.iter().map(|e| Some(e.sigma?[axis].to_degrees())).collect();
         metrics.series.push(Series {
             name: format!("{group}_error_{}", ["x", "y", "z"][axis % 3]),
@@ -126,7 +126,7 @@ fn add_series(errors: &[TumblingError], metrics: &mut Metrics) {
     }
 }
 
-fn add_motion_figures(errors: &[TumblingError], metrics: &mut Metrics) {
+fn add_motion_figures(errors: &[TumblingErrors], metrics: &mut Metrics) {
     let last_fifth = &errors[errors.len() - errors.len().div_ceil(5)..];
     let end = errors.last().expect("there is an epoch");
     metrics.add("final_attitude_error", end.attitude_rad.norm().to_degrees(), "deg");

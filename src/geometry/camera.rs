@@ -11,7 +11,7 @@ pub enum CameraError {
     /// A parameter outside its range.
     #[error("camera parameter {0}")]
     OutOfRange(#[from] OutOfRange),
-    /// The distortion cannot be inverted at a corner of the picture.
+    /// The distortion cannot be inverted at a corner of the image.
     #[error("the distortion cannot be inverted at pixel ({u_px}, {v_px}): check the coefficients or crop the picture")]
     NotInvertible {
         /// Column in px.
@@ -24,9 +24,9 @@ pub enum CameraError {
 /// Intrinsic parameters. Pixel centres are at integers: the top-left pixel's centre is (0, 0).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// Picture width in px.
+    /// PageImage width in px.
     pub width_px: u32,
-    /// Picture height in px.
+    /// PageImage height in px.
     pub height_px: u32,
     /// Focal lengths (fu, fv) in px.
     pub focal_px: Vector2<f64>,
@@ -69,7 +69,7 @@ impl Camera {
     }
 
     /// Pixel of a point in camera axes (m); `None` behind the camera and where the lens model folds over (no pixel sees
-    /// the point). The pixel may lie outside the picture.
+    /// the point). The pixel may lie outside the image.
     pub fn project(&self, point_in_camera_m: &Vector3<f64>) -> Option<Vector2<f64>> {
         self.project_with_jacobian(point_in_camera_m).map(|(pixel, _)| pixel)
     }
@@ -82,8 +82,8 @@ impl Camera {
         }
         let ideal = Vector2::new(p.x / p.z, p.y / p.z);
         let (distorted, by_ideal) = self.distortion.distort(&ideal);
-        // Both eigenvalues of the (symmetric) derivative are positive as long as the picture has not folded over: far
-        // outside the field of view a barrel polynomial would bring points back into the picture.
+        // Both eigenvalues of the (symmetric) derivative are positive as long as the image has not folded over: far
+        // outside the field of view a barrel polynomial would bring points back into the image.
         if by_ideal.determinant() <= 0.0 || by_ideal.trace() <= 0.0 {
             return None;
         }
@@ -102,7 +102,7 @@ impl Camera {
         self.normalize(pixel_px).map(|n| Unit::new_normalize(Vector3::new(n.x, n.y, 1.0)))
     }
 
-    /// Whether a pixel lies inside the picture, at least `margin_px` from its edge.
+    /// Whether a pixel lies inside the image, at least `margin_px` from its edge.
     pub fn contains(&self, pixel_px: &Vector2<f64>, margin_px: f64) -> bool {
         let (w, h) = (f64::from(self.width_px) - 0.5, f64::from(self.height_px) - 0.5);
         let low = margin_px - 0.5;

@@ -1,16 +1,16 @@
-//! Attitudes chained from the rotations between pictures.
+//! Attitudes chained from the rotations between images.
 
 use super::rotation::{PairStatus, RelativeRotation};
 use crate::dataset::StampedPose;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use std::collections::BTreeMap;
 
-/// Attitudes of the camera, each chain in the axes that the camera had in the chain's own first picture
+/// Attitudes of the camera, each chain in the axes that the camera had in the chain's own first image
 /// (`first_from_camera`, no translation), in order of time.
 ///
-/// Each picture is tied to the latest earlier one from which a rotation with status ok leads to it, so a broken link is
-/// bridged by the shortest pair that spans it. A picture to which none leads begins a chain of its own: how it is turned
-/// against the chains before is not known. Chains of one picture are left out.
+/// Each image is tied to the latest earlier one from which a rotation with status ok leads to it, so a broken link is
+/// bridged by the shortest pair that spans it. An image to which none leads begins a chain of its own: how it is turned
+/// against the chains before is not known. Chains of one image are left out.
 pub fn attitude_chains(times_ns: &[i64], rotations: &[RelativeRotation]) -> Vec<Vec<StampedPose>> {
     let mut into: BTreeMap<i64, &RelativeRotation> = BTreeMap::new();
     for r in rotations.iter().filter(|r| r.status == PairStatus::Ok && r.t_ns_from < r.t_ns_to) {

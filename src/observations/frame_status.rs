@@ -1,4 +1,4 @@
-//! What became of a picture.
+//! What became of an image.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! What the front end writes and navigation reads: tracks, rotations of picture pairs, statuses of pictures, and their
+//! What the front end writes and navigation reads: tracks, rotations of image pairs, statuses of images, and their
 //! files. Free of OpenCV, so that whoever has observations of another make navigates by them alike.
 
 mod attitude_chains;

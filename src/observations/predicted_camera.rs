@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-/// Where the camera is thought to be when a picture is taken.
+/// Where the camera is thought to be when an image is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PredictedCamera {
     /// Predicted pose: camera axes from the site frame, m.

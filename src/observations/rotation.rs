@@ -1,4 +1,4 @@
-//! The rotation between two pictures, and what became of the pair.
+//! The rotation between two images, and what became of the pair.
 
 use nalgebra::{Matrix3, UnitQuaternion};
 use serde::{Deserialize, Serialize};

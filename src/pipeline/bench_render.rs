@@ -1,4 +1,4 @@
-//! How long a scenario's pictures take, stage by stage.
+//! How long a scenario's images take, stage by stage.
 
 use super::error::PipelineError;
 use super::frame_range::checked_frames;
@@ -25,25 +25,25 @@ pub struct BenchRenderRequest {
     pub adapter: Option<String>,
 }
 
-/// Times of a scenario's pictures.
+/// Times of a scenario's images.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RenderTimes {
     /// Name of the adapter.
     pub adapter: String,
-    /// Pictures timed, after one that is not.
+    /// Images timed, after one that is not.
     pub frames: usize,
-    /// From the beginning to the first picture in memory, s.
+    /// From the beginning to the first image in memory, s.
     pub first_frame_s: f64,
     /// Median time of each stage.
     pub stages: Vec<StageTime>,
-    /// Pictures per second to memory, without waiting between stages.
+    /// Images per second to memory, without waiting between stages.
     pub frames_per_s: f64,
 }
 
-/// Draws the pictures twice, once stage by stage and once without pause; nothing is written.
+/// Draws the images twice, once stage by stage and once without pause; nothing is written.
 ///
 /// # Errors
-/// A bad scenario, no adapter, or a view that cannot be a picture.
+/// A bad scenario, no adapter, or a view that cannot be an image.
 pub fn bench_render(request: &BenchRenderRequest, progress: &dyn Progress) -> Result<RenderTimes, PipelineError> {
     let start = Instant::now();
     let scenario = Scenario::read_under(&request.scenario, &request.layers)?;

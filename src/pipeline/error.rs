@@ -66,7 +66,7 @@ pub enum PipelineError {
         /// The folder.
         path: PathBuf,
     },
-    /// A folder holds pictures that another adapter or version drew.
+    /// A folder holds images that another adapter or version drew.
     #[error(
         "{} was begun by {found}, and {maker} may draw other bytes: resume with the same adapter (--adapter), or name \
          another folder",

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// A format of another tool.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExportFormat {
-    /// COLMAP's text model: cameras, posed pictures, landmarks with their tracks.
+    /// COLMAP's text model: cameras, posed images, landmarks with their tracks.
     Colmap,
     /// The lists of the TUM RGB-D benchmark: `rgb.txt` and `groundtruth.txt` for each camera.
     Tum,
@@ -23,13 +23,13 @@ pub enum ExportFormat {
 pub struct ExportRequest {
     /// The data set, with its truth.
     pub folder: PathBuf,
-    /// Where the files go. They name pictures relative to the data set's folder.
+    /// Where the files go. They name images relative to the data set's folder.
     pub out: PathBuf,
     /// The format.
     pub format: ExportFormat,
 }
 
-/// Writes true poses, cameras and landmarks in another format; returns the number of pictures.
+/// Writes true poses, cameras and landmarks in another format; returns the number of images.
 ///
 /// # Errors
 /// Names the file of the data set that is missing or malformed, or the file that cannot be written.
@@ -51,7 +51,7 @@ fn export_colmap(request: &ExportRequest, cameras: &[CameraId]) -> Result<usize,
         for StampedPose { t_ns, reference_from_moving } in read_tum(&camera_poses_file(root, camera))? {
             model.images.push(ColmapImage {
                 camera: place,
-                name: camera.picture(t_ns),
+                name: camera.image(t_ns),
                 reference_from_camera: reference_from_moving,
                 observations: seen.get(&t_ns).cloned().unwrap_or_default(),
             });
@@ -68,7 +68,7 @@ fn number(landmark: u32) -> u64 {
 
 type Observations = BTreeMap<i64, Vec<(nalgebra::Vector2<f64>, u64)>>;
 
-/// What a camera sees of the landmarks, picture by picture.
+/// What a camera sees of the landmarks, image by image.
 fn visible(observations: &[LandmarkObservation], camera: &CameraId) -> Observations {
     let mut seen = Observations::new();
     for o in observations.iter().filter(|o| o.camera == camera.number && o.visible) {
@@ -83,18 +83,18 @@ fn export_tum(request: &ExportRequest, cameras: &[CameraId]) -> Result<usize, Pi
         let poses = read_tum(&camera_poses_file(&request.folder, camera))?;
         let folder = camera.folder(&request.out);
         write_tum(&folder.join("groundtruth.txt"), &poses)?;
-        write_pictures(&folder.join("rgb.txt"), camera, &poses)?;
+        write_images(&folder.join("rgb.txt"), camera, &poses)?;
         count += poses.len();
     }
     Ok(count)
 }
 
-fn write_pictures(path: &Path, camera: &CameraId, poses: &[StampedPose]) -> Result<(), PipelineError> {
+fn write_images(path: &Path, camera: &CameraId, poses: &[StampedPose]) -> Result<(), PipelineError> {
     Ok(write_atomically(path, |w| {
         writeln!(w, "# timestamp filename")?;
         poses.iter().try_for_each(|pose| {
             let (s, ns) = (pose.t_ns.div_euclid(1_000_000_000), pose.t_ns.rem_euclid(1_000_000_000));
-            writeln!(w, "{s}.{ns:09} {}", camera.picture(pose.t_ns))
+            writeln!(w, "{s}.{ns:09} {}", camera.image(pose.t_ns))
         })
     })?)
 }

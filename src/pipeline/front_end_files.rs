@@ -1,4 +1,4 @@
-//! The files of a result that the front end fills: tables, chains of attitudes, pictures to look at.
+//! The files of a result that the front end fills: tables, chains of attitudes, images to look at.
 
 use super::error::PipelineError;
 use crate::dataset::{DatasetError, ImageSequence, StampedPose, write_atomically, write_tum};
@@ -69,7 +69,7 @@ const SHEET: (usize, usize, u32) = (24, 6, 320);
 
 /// Draws the tracks into frames spread over the sequence: a few in full size (`overlays/<t_ns>.png`), more of them small on
 /// one sheet (`contact_sheet.png`).
-pub(super) fn write_pictures(out: &Path, sequence: &ImageSequence, front_end: &FrontEnd) -> Result<(), PipelineError> {
+pub(super) fn write_images(out: &Path, sequence: &ImageSequence, front_end: &FrontEnd) -> Result<(), PipelineError> {
     let usable: Vec<usize> = (0..front_end.frames.len()).filter(|k| front_end.frames[*k].problem.is_none()).collect();
     remove_earlier(&out.join("overlays"), is_overlay)?;
     let whole = spread(&usable[1.min(usable.len())..], OVERLAYS);
@@ -110,9 +110,9 @@ fn observations_at(front_end: &FrontEnd, t_ns: i64) -> &[TrackObservation] {
     &front_end.observations[first..end]
 }
 
-fn write_rgb_png(path: &Path, picture: &RgbImage) -> Result<(), PipelineError> {
+fn write_rgb_png(path: &Path, image: &RgbImage) -> Result<(), PipelineError> {
     let mut bytes = Cursor::new(Vec::new());
-    picture
+    image
         .write_to(&mut bytes, image::ImageFormat::Png)
         .map_err(|e| DatasetError::Unusable { path: path.into(), problem: e.to_string() })?;
     Ok(write_atomically(path, |w| w.write_all(bytes.get_ref()))?)

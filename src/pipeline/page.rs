@@ -3,7 +3,7 @@
 use super::doctor::diagnose;
 use super::error::PipelineError;
 use crate::dataset::DatasetError;
-use crate::report::{Page, Picture, Section, environment_table, picture_png, result_section, write_report};
+use crate::report::{Page, PageImage, Section, environment_table, image_png, result_section, write_report};
 use std::path::{Path, PathBuf};
 
 /// Writes one self-contained HTML page about evaluated result folders.
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 pub fn write_page(results: &[PathBuf], out: &Path) -> Result<(), PipelineError> {
     let mut sections = Vec::new();
     for result in results {
-        let mut section = result_section(result, overlay_pictures(result)?)?;
+        let mut section = result_section(result, overlay_images(result)?)?;
         let name = result.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         if !section.heading.to_lowercase().contains(&name.to_lowercase()) {
             section.heading = format!("{} ({name})", section.heading);
@@ -29,11 +29,11 @@ pub fn write_page(results: &[PathBuf], out: &Path) -> Result<(), PipelineError> 
     Ok(write_report(&page, out)?)
 }
 
-/// Width of the pictures on the page, px.
-const PICTURE_WIDTH_PX: u32 = 480;
+/// Width of the images on the page, px.
+const IMAGE_WIDTH_PX: u32 = 480;
 
-/// The pictures of `overlays/` in order of time.
-fn overlay_pictures(result: &Path) -> Result<Vec<Picture>, PipelineError> {
+/// The images of `overlays/` in order of time.
+fn overlay_images(result: &Path) -> Result<Vec<PageImage>, PipelineError> {
     let folder = result.join("overlays");
     if !folder.is_dir() {
         return Ok(Vec::new());
@@ -47,12 +47,12 @@ fn overlay_pictures(result: &Path) -> Result<Vec<Picture>, PipelineError> {
         })
         .collect();
     files.sort();
-    let picture = |(t_ns, path): &(i64, PathBuf)| {
+    let image = |(t_ns, path): &(i64, PathBuf)| {
         let unusable = |e: image::ImageError| DatasetError::Unusable { path: path.into(), problem: e.to_string() };
-        let png = picture_png(&image::open(path).map_err(unusable)?.to_rgb8(), PICTURE_WIDTH_PX)?;
-        Ok::<_, PipelineError>(Picture { caption: format!("t = {:.1} s", *t_ns as f64 * 1e-9), png })
+        let png = image_png(&image::open(path).map_err(unusable)?.to_rgb8(), IMAGE_WIDTH_PX)?;
+        Ok::<_, PipelineError>(PageImage { caption: format!("t = {:.1} s", *t_ns as f64 * 1e-9), png })
     };
-    files.iter().map(picture).collect()
+    files.iter().map(image).collect()
 }
 
 fn environment() -> Section {

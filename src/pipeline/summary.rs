@@ -14,7 +14,7 @@ pub struct Summary {
     pub mission: &'static str,
     /// Version of opnav.
     pub opnav_version: &'static str,
-    /// Time of the first picture used, ns.
+    /// Time of the first image used, ns.
     pub t0_ns: Option<i64>,
     /// Every option as used.
     pub options: serde_json::Value,
@@ -38,7 +38,7 @@ pub struct UnusedFrame {
     pub index: usize,
     /// Time in ns.
     pub t_ns: i64,
-    /// The picture's file.
+    /// The image's file.
     pub file: String,
     /// What became of it.
     pub status: FrameStatus,

@@ -1,8 +1,8 @@
-//! Any folder of pictures to tracks and relative rotations.
+//! Any folder of images to tracks and relative rotations.
 
 use super::error::PipelineError;
 use super::frame_range::checked_frames;
-use super::front_end_files::{write_front_end, write_pictures};
+use super::front_end_files::{write_front_end, write_images};
 use super::mask::read_mask;
 use super::progress::Progress;
 use super::settings::{InputSettings, TrackSettings, write_settings};
@@ -18,19 +18,19 @@ use std::time::Instant;
 /// What to track, and where the result goes.
 #[derive(Debug, Clone)]
 pub struct TrackRequest {
-    /// A data set, a EuRoC folder or a folder of pictures.
+    /// A data set, a EuRoC folder or a folder of images.
     pub folder: PathBuf,
     /// The result's folder.
     pub out: PathBuf,
-    /// Which pictures are taken, and how.
+    /// Which images are taken, and how.
     pub settings: TrackSettings,
 }
 
-/// Tracks a sequence and writes tracks, rotations, the chains of attitudes, overlays and the summary. Pictures that cannot
+/// Tracks a sequence and writes tracks, rotations, the chains of attitudes, overlays and the summary. Images that cannot
 /// be used are named in the summary, and tracking goes on around them.
 ///
 /// # Errors
-/// A setting out of range, fewer than two pictures that can be read, no camera, a mask that does not fit, or a file that
+/// A setting out of range, fewer than two images that can be read, no camera, a mask that does not fit, or a file that
 /// cannot be written.
 pub fn track(request: &TrackRequest, progress: &dyn Progress) -> Result<Summary, PipelineError> {
     let TrackSettings { input, front_end: config } = &request.settings;
@@ -51,14 +51,14 @@ pub fn track(request: &TrackRequest, progress: &dyn Progress) -> Result<Summary,
     summary.last = serde_json::json!({ "attitude_chains": chains });
     summary.timing_ms.insert("files".into(), start.elapsed().as_secs_f64() * 1e3);
     let start = Instant::now();
-    write_pictures(&request.out, &sequence, &front_end)?;
+    write_images(&request.out, &sequence, &front_end)?;
     summary.timing_ms.insert("pictures".into(), start.elapsed().as_secs_f64() * 1e3);
     write_settings(&request.out, "track", &request.settings)?;
     summary.write(&request.out)?;
     Ok(summary)
 }
 
-/// The pictures of a folder, and the mask over them if there is one.
+/// The images of a folder, and the mask over them if there is one.
 pub(super) fn open(folder: &Path, input: &InputSettings) -> Result<(ImageSequence, Option<GrayImage>), PipelineError> {
     let sequence = ImageSequence::open_timed(folder, &input.camera_source(), &input.frame_times())?;
     let mask = input.mask.as_deref().map(|path| read_mask(path, sequence.sensor.camera.size_px())).transpose()?;

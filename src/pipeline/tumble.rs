@@ -1,8 +1,8 @@
-//! A tumbling small body: pictures in; attitude, rate and inertia ratios out.
+//! A tumbling small body: images in; attitude, rate and inertia ratios out.
 
 use super::error::PipelineError;
 use super::frame_range::checked_frames;
-use super::front_end_files::{write_front_end, write_pictures};
+use super::front_end_files::{write_front_end, write_images};
 use super::progress::Progress;
 use super::settings::{TumbleSettings, write_settings};
 use super::summary::Summary;
@@ -18,15 +18,15 @@ use std::time::Instant;
 /// What to estimate from, and where the result goes.
 #[derive(Debug, Clone)]
 pub struct TumbleRequest {
-    /// A data set or a folder of pictures of one tumbling body.
+    /// A data set or a folder of images of one tumbling body.
     pub folder: PathBuf,
     /// The result's folder.
     pub out: PathBuf,
-    /// Which pictures are taken, and how.
+    /// Which images are taken, and how.
     pub settings: TumbleSettings,
 }
 
-/// Tracks the pictures, estimates the tumbling motion and writes the result.
+/// Tracks the images, estimates the tumbling motion and writes the result.
 ///
 /// # Errors
 /// A setting out of range, missing or malformed inputs, too few usable pairs, or a file that cannot be written.
@@ -63,7 +63,7 @@ fn write_result(
     (front_end, result): (&FrontEnd, &TumblingResult),
 ) -> Result<(), PipelineError> {
     write_front_end(out, front_end)?;
-    write_pictures(out, sequence, front_end)?;
+    write_images(out, sequence, front_end)?;
     write_estimate_csv(&out.join("estimate.csv"), result)?;
     write_covariance_csv(&out.join("covariance.csv"), result)?;
     let pose = |e: &TumblingEpoch| StampedPose {

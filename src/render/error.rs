@@ -1,10 +1,10 @@
-//! Everything that can stop a picture from being rendered.
+//! Everything that can stop an image from being rendered.
 
 use crate::geometry::CameraError;
 use crate::settings::OutOfRange;
 use thiserror::Error;
 
-/// Why no picture could be rendered.
+/// Why no image could be rendered.
 #[derive(Debug, Error)]
 pub enum RenderError {
     /// The machine offers no graphics adapter at all.
@@ -40,15 +40,15 @@ pub enum RenderError {
          picture or check the distortion coefficients"
     )]
     LensTooWide,
-    /// A picture larger than the adapter's textures.
+    /// An image larger than the adapter's textures.
     #[error(
         "a picture of {width_px}x{height_px} px with supersampling {supersampling} needs textures larger than this \
          adapter's {limit_px} px: lower the resolution or render.supersampling"
     )]
-    PictureTooLarge {
-        /// Picture width in px.
+    ImageTooLarge {
+        /// PageImage width in px.
         width_px: u32,
-        /// Picture height in px.
+        /// PageImage height in px.
         height_px: u32,
         /// Samples a pixel and axis.
         supersampling: u32,

@@ -1,8 +1,8 @@
-//! Motion during the exposure: one picture as the mean of pictures at other moments, each row at its own times.
+//! Motion during the exposure: one image as the mean of images at other moments, each row at its own times.
 
 use super::error::RenderError;
 use super::frame::RenderedFrame;
-use super::optics::SubPictures;
+use super::optics::SubImages;
 use super::renderer::Renderer;
 use crate::geometry::Camera;
 use crate::scene::{ShutterConfig, View};
@@ -15,9 +15,9 @@ impl Renderer {
     /// Renders what a shutter collects around the time stamp, the middle of the exposure of the middle row. `view_at`
     /// gives the view at any time in ns.
     ///
-    /// Depth and mask are those of the time stamp. The radiance is a mean over pictures at other times, near enough to one
+    /// Depth and mask are those of the time stamp. The radiance is a mean over images at other times, near enough to one
     /// another that nothing moves by more than half a pixel between them, unless that took more than
-    /// [`ShutterConfig::sub_pictures_at_most`]. Without exposure time and row time, or where nothing moves, the picture is
+    /// [`ShutterConfig::sub_pictures_at_most`]. Without exposure time and row time, or where nothing moves, the image is
     /// that of [`Renderer::render`].
     ///
     /// # Errors
@@ -29,17 +29,17 @@ impl Renderer {
         view_at: &dyn Fn(i64) -> View,
     ) -> Result<RenderedFrame, RenderError> {
         let still = self.render(&view_at(t_ns))?;
-        let span_s = SubPictures::span_s(shutter, still.height_px);
+        let span_s = SubImages::span_s(shutter, still.height_px);
         if !shutter.motion || span_s == 0.0 {
             return Ok(still);
         }
         let at = |offset_s: f64| view_at(t_ns + (offset_s * 1e9).round() as i64);
         let views = [-0.5, 0.0, 0.5].map(|share| at(share * span_s));
         let motion_px = motion_px(self.camera(), &still, &views);
-        let sub_pictures = SubPictures::new(shutter, still.height_px, motion_px);
+        let sub_images = SubImages::new(shutter, still.height_px, motion_px);
         let mut radiance = vec![0.0; still.radiance.len()];
-        for (index, offset_s) in sub_pictures.offsets_s.iter().enumerate() {
-            let weights = |row: usize| sub_pictures.weight(index, row);
+        for (index, offset_s) in sub_images.offsets_s.iter().enumerate() {
+            let weights = |row: usize| sub_images.weight(index, row);
             match *offset_s == 0.0 {
                 true => add_weighted(&mut radiance, &still, &weights),
                 false => add_weighted(&mut radiance, &self.render(&at(*offset_s))?, &weights),
@@ -59,7 +59,7 @@ fn add_weighted(sum: &mut [f32], frame: &RenderedFrame, weight_of_row: &dyn Fn(u
     }
 }
 
-/// Longest way in px that a point of the surface goes across the picture through three views; the second is that of the
+/// Longest way in px that a point of the surface goes across the image through three views; the second is that of the
 /// frame. 0 if the frame shows no surface.
 fn motion_px(camera: &Camera, frame: &RenderedFrame, [before, middle, after]: &[View; 3]) -> f64 {
     let grid = |size_px: u32| (0..size_px).step_by(MOTION_GRID_PX as usize);

@@ -1,6 +1,6 @@
 //! What rendering yields.
 
-/// A noise-free picture with its truth; rows from the top, pixel centres at integers.
+/// A noise-free image with its truth; rows from the top, pixel centres at integers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RenderedFrame {
     /// Width in px.

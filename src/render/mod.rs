@@ -1,12 +1,12 @@
-//! Pictures of terrain and small bodies with pixel-exact truth: the only room that names `wgpu`.
+//! Images of terrain and small bodies with pixel-exact truth: the only room that names `wgpu`.
 //!
-//! A picture takes three passes: a shadow map from the Sun, surface samples, several a pixel and one of them at its centre,
+//! An image takes three passes: a shadow map from the Sun, surface samples, several a pixel and one of them at its centre,
 //! and one pass that shades each pixel by them with detail finer than the mesh. The truth is what the centre's sample
-//! shows. A lens with distortion looks its samples up in a pinhole picture. Each shader in `shaders/` has the name of the
+//! shows. A lens with distortion looks its samples up in a pinhole image. Each shader in `shaders/` has the name of the
 //! file here that drives it. Positions reach the adapter relative to the camera,
 //! subtracted in f64 or in two f32 steps that lose nothing.
 //!
-//! What a shutter collects over time is a mean of such pictures ([`Renderer::expose`]); a [`Detector`] makes digital
+//! What a shutter collects over time is a mean of such images ([`Renderer::expose`]); a [`Detector`] makes digital
 //! numbers of it, on the CPU.
 
 mod body;

@@ -1,4 +1,4 @@
-//! Orthoimages: pictures from straight above, resampled to a grid on the ground.
+//! Orthoimages: images from straight above, resampled to a grid on the ground.
 
 use super::RenderConfig;
 use super::error::RenderError;
@@ -13,9 +13,9 @@ use image::ImageBuffer;
 use nalgebra::{Unit, Vector2, Vector3};
 use rayon::prelude::*;
 
-/// Edge of the shadow map in texels: about as many as the picture has samples.
+/// Edge of the shadow map in texels: about as many as the image has samples.
 const SHADOW_MAP_PX: u32 = 4096;
-/// Least distance between the ground's vertices, px: a map's squares are wider than pictures, and their ground has to fit
+/// Least distance between the ground's vertices, px: a map's squares are wider than images, and their ground has to fit
 /// into the adapter's buffers.
 const VERTEX_SPACING_PX: f64 = 1.1;
 /// 1σ of the place of what an orthoimage shows, px: what resampling and details that one level of the ground shows and
@@ -27,7 +27,7 @@ const WHITE: f32 = 1.0;
 /// One level of a map of the terrain under a Sun (direction in the site frame, angular radius in rad), without noise.
 ///
 /// # Errors
-/// [`RenderError`] if the level is larger than the adapter's pictures, or the Sun is below the horizon.
+/// [`RenderError`] if the level is larger than the adapter's images, or the Sun is below the horizon.
 pub fn map_level(
     gpu: &Gpu,
     terrain: &Terrain,
@@ -51,14 +51,14 @@ pub fn map_level(
     Ok(MapLevel {
         metres_per_px: level.metres_per_px,
         first_in_site_m: level.first_in_site_m(),
-        picture: ImageBuffer::from_raw(posts, posts, numbers).expect("one number a post"),
+        image: ImageBuffer::from_raw(posts, posts, numbers).expect("one number a post"),
         sigma_horizontal_m: SIGMA_PX * level.metres_per_px,
         sigma_vertical_m: level.height_error_m(terrain, &heights_m),
         heights_m,
     })
 }
 
-/// The picture at each post's place and height, bilinear; 0 where it does not reach.
+/// The image at each post's place and height, bilinear; 0 where it does not reach.
 fn orthorectified(
     frame: &RenderedFrame,
     (camera, view): (&Camera, &View),

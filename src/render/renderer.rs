@@ -1,4 +1,4 @@
-//! One picture: shadow map, samples, shading.
+//! One image: shadow map, samples, shading.
 
 use super::RenderConfig;
 use super::error::RenderError;
@@ -11,7 +11,7 @@ use super::world::World;
 use crate::geometry::Camera;
 use crate::scene::View;
 
-/// Renders pictures of one world by one camera.
+/// Renders images of one world by one camera.
 #[derive(Debug)]
 pub struct Renderer {
     gpu: Gpu,
@@ -49,7 +49,7 @@ impl Renderer {
     /// Renders one view. The same view gives the same bytes on the same adapter, whatever was rendered before.
     ///
     /// # Errors
-    /// [`RenderError`] if the view cannot be a picture (camera inside the body or below the ground, Sun below the
+    /// [`RenderError`] if the view cannot be an image (camera inside the body or below the ground, Sun below the
     /// horizon), or if the adapter fails.
     pub fn render(&mut self, view: &View) -> Result<RenderedFrame, RenderError> {
         let job = self.prepare(view)?;
@@ -88,13 +88,13 @@ impl Renderer {
     fn record(&self, stage: Stage, job: &ShadingJob, encoder: &mut wgpu::CommandEncoder) {
         match stage {
             Stage::Shadows => self.surface.draw(&mut self.shadow_map.begin(encoder), Role::Shadow),
-            Stage::Samples => self.surface.draw(&mut self.samples.begin(encoder), Role::Picture),
+            Stage::Samples => self.surface.draw(&mut self.samples.begin(encoder), Role::PageImage),
             Stage::Shading => self.shading.record(&self.gpu, encoder, job),
         }
     }
 }
 
-/// What the adapter does for a picture, in this order.
+/// What the adapter does for an image, in this order.
 #[derive(Debug, Clone, Copy)]
 enum Stage {
     Shadows,

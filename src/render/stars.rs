@@ -8,7 +8,7 @@ use nalgebra::{UnitQuaternion, Vector2, Vector3};
 /// Cosine of the angle by which a star may miss its own pixel: beyond it, the lens model has folded back on itself.
 const LEAST_COSINE: f64 = 1.0 - 1e-9;
 
-/// Adds the stars to the picture's radiance: each shares its light among the four pixels around its place, so that their
+/// Adds the stars to the image's radiance: each shares its light among the four pixels around its place, so that their
 /// centroid is that place. A star is hidden where the ray of the nearest pixel hits the surface.
 pub fn add_stars(frame: &mut RenderedFrame, camera: &Camera, sky: &Sky, camera_from_inertial: &UnitQuaternion<f64>) {
     for star in &sky.stars {
@@ -19,7 +19,7 @@ pub fn add_stars(frame: &mut RenderedFrame, camera: &Camera, sky: &Sky, camera_f
     }
 }
 
-/// Pixel of a direction in camera axes, if it lies in the picture or within a pixel of its edge.
+/// Pixel of a direction in camera axes, if it lies in the image or within a pixel of its edge.
 fn place(camera: &Camera, in_camera: &Vector3<f64>) -> Option<Vector2<f64>> {
     let pixel = camera.project(in_camera).filter(|pixel| camera.contains(pixel, -1.0))?;
     let back = camera.unproject(&pixel)?;

@@ -85,8 +85,8 @@ impl Surface {
         };
         let rotation = view.reference_from_camera.rotation.to_homogeneous();
         let shadow_clip = placement.covered.clip_from_relative();
-        let picture_clip = lens.raster_grid.clip_from_camera(&lens.raster) * rotation.transpose();
-        self.set_geometry(gpu, Role::Picture, &placement.geometry(view, &picture_clip));
+        let image_clip = lens.raster_grid.clip_from_camera(&lens.raster) * rotation.transpose();
+        self.set_geometry(gpu, Role::PageImage, &placement.geometry(view, &image_clip));
         self.set_geometry(gpu, Role::Shadow, &placement.geometry(view, &shadow_clip));
 
         let eye_m = view.reference_from_camera.translation.vector;

@@ -2,7 +2,7 @@
 
 use crate::scene::{SmallBody, Terrain};
 
-/// What pictures are taken of.
+/// What images are taken of.
 #[derive(Debug, Clone, Copy)]
 pub enum World<'a> {
     /// Terrain; the views' reference frame is the site.

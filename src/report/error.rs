@@ -13,9 +13,9 @@ pub enum ReportError {
     /// A result could not be read.
     #[error(transparent)]
     Result(#[from] EvaluationError),
-    /// A picture could not be encoded.
+    /// An image could not be encoded.
     #[error("could not encode a picture as PNG: {0}")]
-    Picture(#[from] image::ImageError),
+    PageImage(#[from] image::ImageError),
     /// A plot could not be drawn.
     #[error("could not draw the plot '{title}': {problem}")]
     Plot {

@@ -1,4 +1,4 @@
-//! The page that people read: one self-contained HTML file with tables, pictures and plots.
+//! The page that people read: one self-contained HTML file with tables, images and plots.
 //!
 //! A [`Page`] is plain data, made of [`Section`]s and [`Block`]s; [`write_report`] turns it into a file that needs no
 //! network, no script and no font. [`mission_section`] builds the section of a landing, tumbling or tracking result from
@@ -25,7 +25,7 @@ pub use numbers::{format_number, label_of, unit_label};
 pub use page::campaign_sections;
 #[cfg(feature = "report")]
 pub use page::{
-    Block, MissionReport, Page, Picture, Section, environment_table, figure_table, mission_section, picture_png,
+    Block, MissionReport, Page, PageImage, Section, environment_table, figure_table, image_png, mission_section,
     render_page, result_section, timing_table, write_report,
 };
 #[cfg(feature = "report")]

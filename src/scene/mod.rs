@@ -2,7 +2,7 @@
 //!
 //! A [`Scenario`] is read from a TOML file and builds a [`Scene`]: a [`DescentScene`] (ground, a lander on its path,
 //! inertial measurements), a [`TumblingScene`] (a small body and its motion) or an [`AttachmentScene`] (linked spacecraft
-//! above a site of a small body). Each lists the [`View`]s to take a picture of and carries its exact truth. Every setting
+//! above a site of a small body). Each lists the [`View`]s to take an image of and carries its exact truth. Every setting
 //! has a documented default, its unit in its name, and one `validate()`; unknown keys are refused. `datasets/REFERENCE.md`
 //! lists them all, made from the types' documentation ([`Scenario::schema`]).
 
@@ -29,8 +29,8 @@ pub use attachment::{
     NodeErrorConfig, NodeImuConfig, NodeMotion, Sinusoids, TurningBody,
 };
 pub use body::{
-    AlbedoImage, AlbedoMapFile, BodySource, BodySurface, GlobeMap, LengthUnit, MassProperties, Mesh, MeshAlbedo,
-    MeshFile, PictureEdge, ProceduralBody, SmallBody, SurfaceConfig,
+    AlbedoImage, AlbedoMapFile, BodySource, BodySurface, GlobeMap, ImageEdge, LengthUnit, MassProperties, Mesh,
+    MeshAlbedo, MeshFile, ProceduralBody, SmallBody, SurfaceConfig,
 };
 pub use camera::{CameraConfig, DistortionConfig, DistortionModel, Imager, ImagerConfig, SceneCamera};
 pub use descent::{
@@ -43,7 +43,7 @@ pub use elevation::{
 };
 pub use error::SceneError;
 pub use ideal::optical_flow;
-pub use ideal::{DepthPicture, SensedMotion, ideal_samples, observe_landmarks};
+pub use ideal::{DepthImage, SensedMotion, ideal_samples, observe_landmarks};
 pub use light::{EphemerisConfig, SunInIcrf, Sunlight, sun_angular_radius_rad};
 pub use noise::{
     NOISE_2D_RMS, NOISE_2D_SLOPE_RMS, NOISE_3D_RMS, NOISE_3D_TANGENT_SLOPE_RMS, NoiseOctave, NoiseSample,

@@ -11,7 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Height of the camera over the edge of the square that it surveys: it looks down at no more than 14° off its axis along
-/// either side, and shadows are as sharp as in any other picture.
+/// either side, and shadows are as sharp as in any other image.
 const HEIGHT_OVER_SIDE: f64 = 2.0;
 /// Posts along the edge of a block whose heights are evaluated together.
 const BLOCK: usize = 64;
@@ -147,7 +147,7 @@ impl SurveyLevel {
         }
     }
 
-    /// Pose of that camera: straight above the origin, the picture's top to the north (+y).
+    /// Pose of that camera: straight above the origin, the image's top to the north (+y).
     pub fn site_from_camera(&self) -> Isometry3<f64> {
         let rotation = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
         Isometry3::from_parts(Translation3::new(0.0, 0.0, HEIGHT_OVER_SIDE * self.side_m), rotation)

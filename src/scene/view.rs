@@ -1,8 +1,8 @@
-//! What a picture is taken of at one moment.
+//! What an image is taken of at one moment.
 
 use nalgebra::{Isometry3, Unit, Vector3};
 
-/// One picture to take: where the camera is and where the Sun stands, in the reference frame (`site` for a descent,
+/// One image to take: where the camera is and where the Sun stands, in the reference frame (`site` for a descent,
 /// `asteroid` for a small body).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {

@@ -4,7 +4,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use sha2::{Digest, Sha256};
 
-/// Stream number `index` (such as a row of a picture) of a stream: independent of it and of its other sub-streams.
+/// Stream number `index` (such as a row of an image) of a stream: independent of it and of its other sub-streams.
 pub fn sub_stream(stream: &ChaCha8Rng, index: u64) -> ChaCha8Rng {
     let mut sub_stream = stream.clone();
     sub_stream.set_stream(index.wrapping_add(1));

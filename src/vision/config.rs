@@ -9,7 +9,7 @@ use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How the rotation between two pictures is found.
+/// How the rotation between two images is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum FrontEndMode {

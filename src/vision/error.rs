@@ -7,23 +7,23 @@ use thiserror::Error;
 /// Why the front end could not do its work.
 #[derive(Debug, Error)]
 pub enum VisionError {
-    /// A picture or file at fault.
+    /// An image or file at fault.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// Too few pictures for a pair.
+    /// Too few images for a pair.
     #[error("at least two pictures are needed, and {found} selected: check the folder and the range of frames")]
-    TooFewPictures {
-        /// Pictures selected.
+    TooFewImages {
+        /// Images selected.
         found: usize,
     },
-    /// Pictures were selected, but nearly none of them can be used.
+    /// Images were selected, but nearly none of them can be used.
     #[error(
         "at least two pictures are needed, and {found} of the {selected} selected can be used; the first fault: {problem}"
     )]
     TooFewUsable {
-        /// Pictures that can be used.
+        /// Images that can be used.
         found: usize,
-        /// Pictures selected.
+        /// Images selected.
         selected: usize,
         /// What is wrong with the first of the others, and what to do.
         problem: String,
@@ -37,16 +37,16 @@ pub enum VisionError {
         /// What is wrong, with the key.
         problem: String,
     },
-    /// A mask of another size than its picture.
+    /// A mask of another size than its image.
     #[error("the mask is {mask_width_px}x{mask_height_px} px, but its picture is {width_px}x{height_px} px")]
     MaskSize {
         /// The mask's width in px.
         mask_width_px: u32,
         /// The mask's height in px.
         mask_height_px: u32,
-        /// The picture's width in px.
+        /// The image's width in px.
         width_px: u32,
-        /// The picture's height in px.
+        /// The image's height in px.
         height_px: u32,
     },
     /// A mask without a place to look at.

@@ -9,7 +9,7 @@ use std::ops::Range;
 /// Predicted rotation `camera(t_to)_from_camera(t_from)` of two times in ns; `None` where nothing is known.
 pub type RotationPrediction<'a> = &'a (dyn Fn(i64, i64) -> Option<UnitQuaternion<f64>> + Sync);
 
-/// Which pictures to use, and what is known besides.
+/// Which images to use, and what is known besides.
 #[derive(Clone)]
 pub struct TrackInputs<'a> {
     /// Positions in the sequence, the end left out; clipped to the sequence.
@@ -18,9 +18,9 @@ pub struct TrackInputs<'a> {
     pub every: usize,
     /// Predicted rotation between two times, from a gyroscope.
     pub rotation_prior: Option<RotationPrediction<'a>>,
-    /// The landing point in the first picture.
+    /// The landing point in the first image.
     pub designated: Option<DesignatedPoint>,
-    /// Where to look, in all pictures alike: not where it is 0 (parts of the spacecraft). Features and their patches stay
+    /// Where to look, in all images alike: not where it is 0 (parts of the spacecraft). Features and their patches stay
     /// clear of the zeros. Of the camera's size.
     pub mask: Option<&'a GrayImage>,
 }
@@ -31,7 +31,7 @@ impl Default for TrackInputs<'_> {
     }
 }
 
-/// What was done with one picture. The times are the only part of a result that may differ between two runs.
+/// What was done with one image. The times are the only part of a result that may differ between two runs.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FrameReport {
     /// Position in the sequence.
@@ -44,7 +44,7 @@ pub struct FrameReport {
     pub problem: Option<String>,
     /// Features found.
     pub features: usize,
-    /// Matches with the picture before.
+    /// Matches with the image before.
     pub matches: usize,
     /// Reading the file, ms.
     pub load_ms: f64,
@@ -52,14 +52,14 @@ pub struct FrameReport {
     pub detect_ms: f64,
     /// Description, ms.
     pub describe_ms: f64,
-    /// Matching with the picture before, and descriptors that only this needed, ms.
+    /// Matching with the image before, and descriptors that only this needed, ms.
     pub match_ms: f64,
-    /// Solving the rotation from the picture before, ms.
+    /// Solving the rotation from the image before, ms.
     pub rotation_ms: f64,
 }
 
 impl FrameReport {
-    /// Report of a picture that could not be loaded.
+    /// Report of an image that could not be loaded.
     pub(super) fn unusable(frame: &Frame, error: &DatasetError) -> Self {
         let status = match error {
             DatasetError::WrongSize { .. } => FrameStatus::WrongSize,
@@ -70,22 +70,22 @@ impl FrameReport {
     }
 }
 
-/// Where the designated point was carried to in one picture.
+/// Where the designated point was carried to in one image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DesignatedStep {
     /// Time in ns.
     pub t_ns: i64,
     /// Pixel (u, v).
     pub pixel_px: Vector2<f64>,
-    /// 1σ of this transfer alone, px; in the first picture, of the pixel that names the point.
+    /// 1σ of this transfer alone, px; in the first image, of the pixel that names the point.
     pub step_sigma_px: f64,
-    /// Covariance of the pixel, with the first picture's and every transfer's share, px².
+    /// Covariance of the pixel, with the first image's and every transfer's share, px².
     pub covariance_px2: Matrix2<f64>,
-    /// Size of a pixel on the ground about the point, over that in the first picture.
+    /// Size of a pixel on the ground about the point, over that in the first image.
     pub pixel_size: f64,
-    /// Variance of the drift over the ground since the first picture, in each coordinate, in squared pixels of that.
+    /// Variance of the drift over the ground since the first image, in each coordinate, in squared pixels of that.
     pub drift_first_px2: f64,
-    /// Time of the picture that it was carried from, ns.
+    /// Time of the image that it was carried from, ns.
     pub t_ns_from: i64,
     /// Whether the grey levels about the point refined what the matches said.
     pub refined: bool,
@@ -94,13 +94,13 @@ pub struct DesignatedStep {
 /// Everything that the front end found in a sequence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrontEnd {
-    /// Tracks of two or more pictures in order of time, then of track number; the designated point's σ is that of its
+    /// Tracks of two or more images in order of time, then of track number; the designated point's σ is that of its
     /// last step: of the pixel given the ground point that is tracked. Its drift off the site is in `designated`.
     pub observations: Vec<TrackObservation>,
-    /// Rotations of adjacent pictures in order of time; then, in order of time too, those of pictures on both sides of
-    /// pictures that cannot be used, and of keyframe pairs.
+    /// Rotations of adjacent images in order of time; then, in order of time too, those of images on both sides of
+    /// images that cannot be used, and of keyframe pairs.
     pub rotations: Vec<RelativeRotation>,
-    /// One report a picture, those that could not be used included.
+    /// One report an image, those that could not be used included.
     pub frames: Vec<FrameReport>,
     /// Direction of the centre of rotation, in the fixed-centre mode.
     pub center_in_camera: Option<Unit<Vector3<f64>>>,

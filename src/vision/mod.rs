@@ -1,11 +1,11 @@
 //! The image front end: the only room that names OpenCV.
 //!
-//! Corners (Harris', or those of another [`Detector`]) are found in every picture, located to a fraction of a pixel,
-//! described by ORB (or another [`Descriptor`]) and matched from picture to picture, all of it by OpenCV. Each pair's matches are explained by the model that fits the scene, which gives the rotation between the
-//! pictures with its covariance, and verified matches chain into tracks. Plain results ([`TrackObservation`],
+//! Corners (Harris', or those of another [`Detector`]) are found in every image, located to a fraction of a pixel,
+//! described by ORB (or another [`Descriptor`]) and matched from image to image, all of it by OpenCV. Each pair's matches are explained by the model that fits the scene, which gives the rotation between the
+//! images with its covariance, and verified matches chain into tracks. Plain results ([`TrackObservation`],
 //! [`RelativeRotation`]) and their files are free of OpenCV and are compiled without the `vision` feature too.
 //!
-//! # From a folder of pictures to rotations
+//! # From a folder of images to rotations
 //!
 #![cfg_attr(feature = "vision", doc = "```")]
 #![cfg_attr(not(feature = "vision"), doc = "```ignore")]
@@ -30,7 +30,7 @@
 //! let found = track_sequence(&sequence, &FrontEndConfig::default(), &TrackInputs::default(), &|_| ())?;
 //!
 //! for frame in found.frames.iter().filter(|frame| frame.status != FrameStatus::Ok) {
-//!     println!("picture {} was not used: {}", frame.index, frame.status.word());
+//!     println!("image {} was not used: {}", frame.index, frame.status.word());
 //! }
 //! for pair in &found.rotations {
 //!     let turn_deg = pair.camera_to_from_camera_from.angle().to_degrees();
@@ -68,7 +68,7 @@ mod sequence;
 mod tracking;
 
 pub use config::{FrontEndConfig, FrontEndMode};
-pub use designated::drift_a_picture_px;
+pub use designated::drift_per_image_px;
 pub use error::VisionError;
 pub use features::{
     Detector, DetectorConfig, DetectorKind, Feature, FusedResponse, PeakModel, ResponseConfig, Responses,

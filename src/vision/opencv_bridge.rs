@@ -6,12 +6,12 @@ use opencv::boxed_ref::BoxedRef;
 use opencv::core::{Mat, Point2d, Vector};
 use opencv::prelude::*;
 
-/// The picture as OpenCV sees it, without a copy.
-pub(super) fn picture_mat(picture: &GrayImage) -> opencv::Result<BoxedRef<'_, Mat>> {
-    Mat::new_rows_cols_with_data(picture.height() as i32, picture.width() as i32, picture.as_raw().as_slice())
+/// The image as OpenCV sees it, without a copy.
+pub(super) fn image_mat(image: &GrayImage) -> opencv::Result<BoxedRef<'_, Mat>> {
+    Mat::new_rows_cols_with_data(image.height() as i32, image.width() as i32, image.as_raw().as_slice())
 }
 
-/// A picture from OpenCV's one of 8 bits.
+/// An image from OpenCV's one of 8 bits.
 pub(super) fn grey_image(mat: &Mat) -> opencv::Result<GrayImage> {
     let levels = mat.data_bytes()?.to_vec();
     Ok(GrayImage::from_raw(mat.cols() as u32, mat.rows() as u32, levels).expect("a byte a pixel"))

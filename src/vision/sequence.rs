@@ -7,7 +7,8 @@ use super::front_end::{DesignatedStep, FrontEnd, TrackInputs};
 use super::masks::KeepOut;
 use super::pair::{CenterProblem, CenteredPair, PairSolution, rotations_about_center};
 use super::tracking::{
-    Center, Chain, Job, Tracks, keyframe_rotations, link, milliseconds, rotations_in_order, settle_rivals,
+    Center, Chain, TrackingContext, Tracks, keyframe_rotations, link, milliseconds, resolve_ambiguous_pairs,
+    rotations_in_order,
 };
 use crate::dataset::{Frame, ImageSequence};
 use crate::observations::{PairStatus, TrackObservation};
@@ -34,14 +35,14 @@ impl Laps {
 
 /// Runs the front end: features, matches, rotations, tracks, keyframe pairs, the designated point.
 ///
-/// A picture that cannot be read, is of the wrong size or without features is reported by status; the pictures on both
+/// An image that cannot be read, is of the wrong size or without features is reported by status; the images on both
 /// sides of it make a pair, and tracks go on over the gap.
 ///
-/// `progress` is told how many pictures have been read, from any thread. The result does not depend on the number of
+/// `progress` is told how many images have been read, from any thread. The result does not depend on the number of
 /// threads, times aside.
 ///
 /// # Errors
-/// Fewer than two pictures that can be read, a parameter out of range, a mask that does not fit, or OpenCV's refusal.
+/// Fewer than two images that can be read, a parameter out of range, a mask that does not fit, or OpenCV's refusal.
 pub fn track_sequence(
     sequence: &ImageSequence,
     config: &FrontEndConfig,
@@ -53,23 +54,23 @@ pub fn track_sequence(
     let mut chosen = chosen_frames(sequence, inputs)?;
     let keep_out =
         inputs.mask.map(|m| KeepOut::new(m, config.klt.half_px, sequence.sensor.camera.size_px())).transpose()?;
-    let job = Job { sequence, config, prior: inputs.rotation_prior, keep_out };
+    let context = TrackingContext { sequence, config, prior: inputs.rotation_prior, keep_out };
     let mut laps = Laps::start();
     let mut tracks = Tracks::new();
-    let mut chain = link(&job, &chosen, &mut tracks, progress)?;
+    let mut chain = link(&context, &chosen, &mut tracks, progress)?;
     laps.end("link");
     let reports = chain.reports()?;
     chosen.retain(|frame| chain.frames.binary_search_by_key(&frame.index, |f| f.report.index).is_ok());
     let center = match config.mode {
-        FrontEndMode::Auto => settle_rivals(&job, &mut chain)?,
-        FrontEndMode::FixedCenter => solve_about_center(&job, &mut chain, &mut tracks),
+        FrontEndMode::Auto => resolve_ambiguous_pairs(&context, &mut chain)?,
+        FrontEndMode::FixedCenter => solve_about_center(&context, &mut chain, &mut tracks),
     };
     laps.end("settle");
-    let keyframes = keyframe_rotations(&job, &chain, &tracks, center.as_ref())?;
+    let keyframes = keyframe_rotations(&context, &chain, &tracks, center.as_ref())?;
     let rotations = rotations_in_order(&chain, &reports, keyframes);
     laps.end("keyframes");
     let designated = match &inputs.designated {
-        Some(start) => carry_designated(&job, &chosen, &tracks, start)?,
+        Some(start) => carry_designated(&context, &chosen, &tracks, start)?,
         None => Vec::new(),
     };
     laps.end("designated");
@@ -90,11 +91,11 @@ fn chosen_frames<'a>(sequence: &'a ImageSequence, inputs: &TrackInputs) -> Resul
     let end = inputs.frames.end.min(sequence.frames.len());
     let start = inputs.frames.start.min(end);
     let chosen: Vec<&Frame> = sequence.frames[start..end].iter().step_by(inputs.every).collect();
-    if chosen.len() < 2 { Err(VisionError::TooFewPictures { found: chosen.len() }) } else { Ok(chosen) }
+    if chosen.len() < 2 { Err(VisionError::TooFewImages { found: chosen.len() }) } else { Ok(chosen) }
 }
 
-fn solve_about_center(job: &Job, chain: &mut Chain, tracks: &mut Tracks) -> Center {
-    let camera = job.camera();
+fn solve_about_center(context: &TrackingContext, chain: &mut Chain, tracks: &mut Tracks) -> Center {
+    let camera = context.camera();
     let middle = Vector2::new(f64::from(camera.width_px), f64::from(camera.height_px)) * 0.5;
     let guesses: Vec<Vector2<f64>> = chain.frames.iter().filter_map(|f| f.centroid_px).collect();
     let mean = guesses.iter().sum::<Vector2<f64>>() / guesses.len().max(1) as f64;
@@ -102,8 +103,8 @@ fn solve_about_center(job: &Job, chain: &mut Chain, tracks: &mut Tracks) -> Cent
     let problem = CenterProblem {
         camera,
         center_guess: camera.unproject(&guess).unwrap_or(Vector3::z_axis()),
-        config: &job.config.fixed_center,
-        rotation: &job.config.rotation,
+        config: &context.config.fixed_center,
+        rotation: &context.config.rotation,
     };
     let times = |k: usize| (chain.frames[k].report.t_ns, chain.frames[k + 1].report.t_ns);
     let pairs: Vec<CenteredPair> = chain
@@ -113,7 +114,7 @@ fn solve_about_center(job: &Job, chain: &mut Chain, tracks: &mut Tracks) -> Cent
         .map(|(k, pair)| CenteredPair {
             matches: pair.pixels.view(),
             dt_s: (times(k).1 - times(k).0) as f64 * 1e-9,
-            predicted: job.predicted(times(k).0, times(k).1),
+            predicted: context.predicted(times(k).0, times(k).1),
         })
         .collect();
     let solved = rotations_about_center(&pairs, &problem);
@@ -126,7 +127,7 @@ fn solve_about_center(job: &Job, chain: &mut Chain, tracks: &mut Tracks) -> Cent
     Some((solved.center_in_camera, solved.center_covariance_rad2))
 }
 
-/// The observations with those of the designated point, first in each picture.
+/// The observations with those of the designated point, first in each image.
 fn with_designated(observations: Vec<TrackObservation>, designated: &[DesignatedStep]) -> Vec<TrackObservation> {
     if designated.is_empty() {
         return observations;

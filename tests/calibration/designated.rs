@@ -1,7 +1,7 @@
 //! How far the looks of the ground lead a carried point off the ground.
 
 use super::components::Sample;
-use super::truth::{Picture, Sequence};
+use super::truth::{PageImage, Sequence};
 use nalgebra::{Matrix2, Point3, Vector2};
 use opnav::dataset::DesignatedPoint;
 use opnav::vision::*;
@@ -59,7 +59,7 @@ fn drifts_of(
 fn samples(sequence: &Sequence, group: usize, steps: &[DesignatedStep], model: &NoiseModel) -> Vec<Sample<1>> {
     let camera = &sequence.camera;
     let on_ground = |step: &DesignatedStep| {
-        let picture: &Picture = sequence.at(step.t_ns)?;
+        let picture: &PageImage = sequence.at(step.t_ns)?;
         Some((picture.point(&step.pixel_px, camera)?.coords, picture.reference_from_camera.translation.vector))
     };
     let Some((first_m, camera_m)) = steps.first().and_then(on_ground) else { return Vec::new() };

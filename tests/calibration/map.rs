@@ -15,7 +15,7 @@ use std::path::Path;
 /// 1σ of a point's own errors that is assumed while points are chosen, px: wide, so that none is dropped for it.
 const WIDE_PX: f64 = 0.5;
 /// Pictures of a sequence, at most: the lowest ones of a whole descent see little that the map knows.
-const MOST_PICTURES: usize = 36;
+const MOST_IMAGES: usize = 36;
 /// Fewest points of a picture.
 const FEWEST: usize = 12;
 
@@ -41,13 +41,13 @@ pub fn map_errors(sequence: &Sequence, map: &Path, group: usize, model: &NoiseMo
     let config = MapMatchConfig { noise, patch_noise: model.patch, most_sightings: 60, ..MapMatchConfig::default() };
     let matcher = MapMatcher::new(&read_ground_map(map).expect("a map"), &MapFeatures::default(), &config)
         .expect("usable settings");
-    let of = |index: usize| of_picture(sequence, (index, group), &matcher);
-    let all: Vec<_> = (0..sequence.pictures.len().min(MOST_PICTURES)).into_par_iter().filter_map(of).collect();
+    let of = |index: usize| of_image(sequence, (index, group), &matcher);
+    let all: Vec<_> = (0..sequence.pictures.len().min(MOST_IMAGES)).into_par_iter().filter_map(of).collect();
     let commons = all.iter().map(|(_, common)| *common).collect();
     (all.into_iter().flat_map(|(samples, _)| samples).collect(), commons)
 }
 
-fn of_picture(
+fn of_image(
     sequence: &Sequence,
     (index, group): (usize, usize),
     matcher: &MapMatcher,

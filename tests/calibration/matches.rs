@@ -1,7 +1,7 @@
 //! Pairs of pictures by the tracks that they share, with the truth; and the smooth part of their errors.
 
 use super::components::{median, robust_sigma};
-use super::truth::{Picture, Sequence};
+use super::truth::{PageImage, Sequence};
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector2};
 use opnav::vision::*;
 use std::collections::BTreeMap;
@@ -66,7 +66,7 @@ type Points = BTreeMap<u64, (Vector2<f64>, f64)>;
 
 impl TruePair {
     fn new(
-        (from, to): (&Picture, &Picture),
+        (from, to): (&PageImage, &PageImage),
         (before, after): (&Points, &Points),
         sequence: &Sequence,
         group: usize,

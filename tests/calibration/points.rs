@@ -1,7 +1,7 @@
 //! Errors of corners and of aligned patches, point by point.
 
 use super::components::Sample;
-use super::truth::{Picture, Sequence};
+use super::truth::{PageImage, Sequence};
 use nalgebra::{Matrix2, Vector2};
 use opnav::vision::*;
 
@@ -18,7 +18,7 @@ struct Corners {
 }
 
 impl Corners {
-    fn find(picture: &Picture, model: &NoiseModel) -> Corners {
+    fn find(picture: &PageImage, model: &NoiseModel) -> Corners {
         let open = DetectorConfig { max_sigma_px: f64::MAX, ..DetectorConfig::default() };
         let with = |change_per_px: f64, noise_factor: f64| {
             let config = DetectorConfig { noise: CornerNoise { change_per_px, noise_factor }, ..open.clone() };
@@ -78,7 +78,7 @@ struct Followed {
 }
 
 fn followed(
-    (from, to): (&Picture, &Picture),
+    (from, to): (&PageImage, &PageImage),
     points_px: &[Vector2<f64>],
     camera: &opnav::geometry::Camera,
 ) -> Vec<Followed> {
@@ -95,7 +95,7 @@ fn followed(
     points_px.iter().zip(&found).enumerate().filter_map(one).collect()
 }
 
-fn corner_pixels(picture: &Picture, model: &NoiseModel) -> Vec<Vector2<f64>> {
+fn corner_pixels(picture: &PageImage, model: &NoiseModel) -> Vec<Vector2<f64>> {
     let config = DetectorConfig { noise: model.corner, ..DetectorConfig::default() };
     let features = detect_features(&picture.image, None, &config).expect("OpenCV works");
     let step = features.len().div_ceil(MOST_POINTS).max(1);

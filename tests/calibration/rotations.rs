@@ -80,8 +80,12 @@ fn normalized(solution: &PairSolution, truth: &UnitQuaternion<f64>) -> f64 {
 /// Pairs over ground, solved with free relief, the truth telling rival motions apart.
 pub fn over_ground(pairs: &[TruePair], camera: &Camera, [share, growth, far]: [f64; 3]) -> Vec<Normalized> {
     let solve = |p: &TruePair, over: f64| {
-        let noise =
-            PairNoise { smooth_error_share: share / over, growth_by_view: growth, far_view: far, over_likeliest: over };
+        let noise = PairNoise {
+            correlated_error_share: share / over,
+            growth_by_view: growth,
+            far_view: far,
+            over_likeliest: over,
+        };
         let config = RotationConfig { noise, ..RotationConfig::default() };
         let hints = PairHints { camera_to_from_camera_from: Some(p.true_rotation), ..PairHints::default() };
         let solved = relative_rotation(p.pixels(), camera, &hints, &config).expect("OpenCV works");
@@ -99,7 +103,7 @@ pub fn about_center(pairs: &[TruePair], camera: &Camera, guess: Unit<Vector3<f64
         .collect();
     let rotation = RotationConfig::default();
     let at = GRID.map(|over| {
-        let noise = BodyNoise { smooth_error_share: share / over, over_likeliest: over };
+        let noise = BodyNoise { correlated_error_share: share / over, over_likeliest: over };
         let config = FixedCenterConfig { noise, ..FixedCenterConfig::default() };
         let problem = CenterProblem { camera, center_guess: guess, config: &config, rotation: &rotation };
         let solved = rotations_about_center(&centered, &problem).pairs;

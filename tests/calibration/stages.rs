@@ -155,14 +155,14 @@ fn pairs(scenes: &Scenes, model: &mut NoiseModel, found: &mut Vec<Found>) {
     all.extend(of_all(&scenes.flights, |s, g| of(s, count + g, &far)));
     let measured: Vec<Measured> = all.iter().flat_map(|(_, pairs)| rotations::measured(pairs)).collect();
     let start =
-        [model.pair.smooth_error_share * model.pair.over_likeliest, model.pair.growth_by_view, model.pair.far_view];
+        [model.pair.correlated_error_share * model.pair.over_likeliest, model.pair.growth_by_view, model.pair.far_view];
     let share = rotations::fit_share(&measured.iter().collect::<Vec<_>>(), start, true);
     println!("    true share {share:.4?} of {} pairs", measured.len());
     let solved: Vec<Normalized> =
         all.par_iter().flat_map(|(camera, pairs)| rotations::over_ground(pairs, camera, share)).collect();
     let fit = rotations::constants((&measured, &solved), share, true, "pairs");
     let p = &mut model.pair;
-    [p.smooth_error_share, p.growth_by_view, p.far_view, p.over_likeliest] = fit.value;
+    [p.correlated_error_share, p.growth_by_view, p.far_view, p.over_likeliest] = fit.value;
     let keys = ["pair.smooth_error_share", "pair.growth_by_view", "pair.far_view", "pair.over_likeliest"];
     add_constants(found, &fit, &keys, GROUNDS, &format!("{VALID}; translation over distance 0.015 to 0.5"));
 }
@@ -181,7 +181,7 @@ fn bodies(scenes: &Scenes, model: &mut NoiseModel, found: &mut Vec<Found>) {
         })
         .collect();
     let measured: Vec<Measured> = all.iter().flat_map(|(_, pairs)| rotations::measured(pairs)).collect();
-    let start = [model.body.smooth_error_share * model.body.over_likeliest, 1e-6, 1.0];
+    let start = [model.body.correlated_error_share * model.body.over_likeliest, 1e-6, 1.0];
     let share = rotations::fit_share(&measured.iter().collect::<Vec<_>>(), start, false);
     println!("    true share {:.5} of {} pairs", share[0], measured.len());
     let solve = |(sequence, pairs): &(Sequence, Vec<TruePair>)| {
@@ -189,7 +189,7 @@ fn bodies(scenes: &Scenes, model: &mut NoiseModel, found: &mut Vec<Found>) {
     };
     let solved: Vec<Normalized> = all.par_iter().flat_map(solve).collect();
     let fit = rotations::constants((&measured, &solved), share, false, "bodies");
-    (model.body.smooth_error_share, model.body.over_likeliest) = (fit.value[0], fit.value[3]);
+    (model.body.correlated_error_share, model.body.over_likeliest) = (fit.value[0], fit.value[3]);
     let keys = ["body.smooth_error_share", "", "", "body.over_likeliest"];
     add_constants(
         found,

@@ -9,7 +9,7 @@ use std::path::Path;
 /// Depths about a pixel that differ by more of themselves are those of an edge.
 const SMOOTH_DEPTH: f64 = 0.01;
 
-pub struct Picture {
+pub struct PageImage {
     pub t_ns: i64,
     pub image: GrayImage,
     pub reference_from_camera: Isometry3<f64>,
@@ -19,7 +19,7 @@ pub struct Picture {
 pub struct Sequence {
     pub camera: Camera,
     pub images: ImageSequence,
-    pub pictures: Vec<Picture>,
+    pub pictures: Vec<PageImage>,
 }
 
 impl Sequence {
@@ -28,7 +28,7 @@ impl Sequence {
         let poses = read_tum(&folder.join("truth/cam0.tum")).expect("true poses");
         let picture = |frame: &opnav::dataset::Frame| {
             let pose = poses.iter().find(|p| p.t_ns == frame.t_ns).expect("the picture's pose");
-            Picture {
+            PageImage {
                 t_ns: frame.t_ns,
                 image: images.load(frame).expect("a picture"),
                 reference_from_camera: pose.reference_from_moving,
@@ -40,12 +40,12 @@ impl Sequence {
         Sequence { camera: images.sensor.camera, images, pictures }
     }
 
-    pub fn at(&self, t_ns: i64) -> Option<&Picture> {
+    pub fn at(&self, t_ns: i64) -> Option<&PageImage> {
         self.pictures.iter().find(|p| p.t_ns == t_ns)
     }
 }
 
-impl Picture {
+impl PageImage {
     /// True z-depth at a pixel, m; `None` where no surface is, or at an edge.
     fn depth_m(&self, pixel_px: &Vector2<f64>) -> Option<f64> {
         if !(pixel_px.x >= 0.0 && pixel_px.y >= 0.0) {
@@ -67,7 +67,7 @@ impl Picture {
     }
 
     /// Where the surface point at a pixel is in another picture; `None` where it is hidden or outside.
-    pub fn true_pixel(&self, pixel_px: &Vector2<f64>, other: &Picture, camera: &Camera) -> Option<Vector2<f64>> {
+    pub fn true_pixel(&self, pixel_px: &Vector2<f64>, other: &PageImage, camera: &Camera) -> Option<Vector2<f64>> {
         let point = self.point(pixel_px, camera)?;
         let in_other = other.reference_from_camera.inverse_transform_point(&point).coords;
         let pixel_px = camera.project(&in_other).filter(|p| camera.contains(p, 2.0))?;
@@ -75,8 +75,8 @@ impl Picture {
         ((seen_m / in_other.z - 1.0).abs() < SMOOTH_DEPTH).then_some(pixel_px)
     }
 
-    /// Derivative of [`Picture::true_pixel`] by the pixel, by differences over a few px.
-    pub fn warp(&self, pixel_px: &Vector2<f64>, other: &Picture, camera: &Camera) -> Option<Matrix2<f64>> {
+    /// Derivative of [`PageImage::true_pixel`] by the pixel, by differences over a few px.
+    pub fn warp(&self, pixel_px: &Vector2<f64>, other: &PageImage, camera: &Camera) -> Option<Matrix2<f64>> {
         const STEP_PX: f64 = 4.0;
         let slope = |step: Vector2<f64>| {
             let [ahead, behind] = [step, -step].map(|s| self.true_pixel(&(pixel_px + s), other, camera));

@@ -115,7 +115,7 @@ fn folders_that_cannot_be_tracked() {
 }
 
 #[test]
-fn folders_without_two_pictures_that_can_be_read() {
+fn folders_without_two_images_that_can_be_read() {
     let folder = folder();
     put(&folder, "a1.png", "not a picture");
     put(&folder, "a2.png", encoded(&frame(0), ImageFormat::Png));
@@ -131,7 +131,7 @@ fn folders_without_two_pictures_that_can_be_read() {
 }
 
 #[test]
-fn pictures_cut_short_are_named_and_passed_over() {
+fn images_cut_short_are_named_and_passed_over() {
     let cure = "remove it or put a whole one in its place";
     let jpeg = encoded(&frame(2), ImageFormat::Jpeg);
     let problem = format!("frame2.jpg: the picture cannot be read (the file is cut short): {cure}");
@@ -142,7 +142,7 @@ fn pictures_cut_short_are_named_and_passed_over() {
 }
 
 #[test]
-fn pictures_of_any_other_size_are_named_and_passed_over() {
+fn images_of_any_other_size_are_named_and_passed_over() {
     for side in [1, 80] {
         let problem = format!(
             "frame2.png is {side}x{side} px, but its camera is 160x160 px: give the camera file of these pictures or remove \
@@ -157,7 +157,7 @@ fn pictures_of_any_other_size_are_named_and_passed_over() {
 }
 
 #[test]
-fn black_and_white_pictures_are_named_and_passed_over() {
+fn black_and_white_images_are_named_and_passed_over() {
     for level in [0, 255] {
         let flat = GrayImage::from_pixel(SIDE, SIDE, Luma([level]));
         assert_named("frame2.png", &encoded(&flat, ImageFormat::Png), "no-features", "");
@@ -165,7 +165,7 @@ fn black_and_white_pictures_are_named_and_passed_over() {
 }
 
 #[test]
-fn floating_point_pictures_without_a_number_are_passed_over() {
+fn floating_point_images_without_a_number_are_passed_over() {
     use tiff::encoder::{TiffEncoder, colortype::Gray32Float};
     let write = |path: &Path, values: &[f32]| {
         let mut encoder = TiffEncoder::new(std::fs::File::create(path).expect("a file")).expect("a file");
@@ -186,7 +186,7 @@ fn floating_point_pictures_without_a_number_are_passed_over() {
 }
 
 #[test]
-fn pictures_of_one_pixel_are_an_outcome() {
+fn images_of_one_pixel_are_an_outcome() {
     let folder = folder();
     for k in 0..3 {
         put(&folder, &format!("a{k}.png"), encoded(&GrayImage::new(1, 1), ImageFormat::Png));

@@ -93,15 +93,15 @@ pub fn landing_bench() -> Bench {
     };
     write_camera_sensor(&bench.root().join("cam0/sensor.yaml"), &sensor).expect("write");
     let poses: Vec<StampedPose> =
-        picture_times().map(|t_ns| StampedPose { t_ns, reference_from_moving: true_camera(t_ns) }).collect();
+        image_times().map(|t_ns| StampedPose { t_ns, reference_from_moving: true_camera(t_ns) }).collect();
     write_tum(&bench.root().join("truth/cam0.tum"), &poses).expect("write");
-    for t_ns in picture_times() {
+    for t_ns in image_times() {
         write_flat_depth(&bench.root(), t_ns);
     }
     bench
 }
 
-pub fn picture_times() -> impl Iterator<Item = i64> {
+pub fn image_times() -> impl Iterator<Item = i64> {
     (0..5).map(|k| k * 20 * SECOND_NS)
 }
 

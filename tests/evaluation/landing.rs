@@ -1,8 +1,8 @@
 //! Landings: errors that are known are found exactly.
 
 use super::bench::{
-    LandingRow, SECOND_NS, assert_near, descent, figure, ground_under, landing_bench, landing_csv, perfect_landing,
-    picture_times, small_camera, true_camera,
+    LandingRow, SECOND_NS, assert_near, descent, figure, ground_under, image_times, landing_bench, landing_csv,
+    perfect_landing, small_camera, true_camera,
 };
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use opnav::evaluation::*;
@@ -97,7 +97,7 @@ fn epochs_between_the_truth_samples_are_interpolated() {
 /// Track 0 with the given pixel in the last picture, 80 s.
 fn tracks_csv(last: &Vector2<f64>) -> String {
     let mut text = String::from("t_ns,track_id,u_px,v_px,sigma_px,response\n");
-    for t_ns in picture_times() {
+    for t_ns in image_times() {
         let camera_from_site = true_camera(t_ns).inverse();
         let origin = camera_from_site.translation.vector;
         let pixel = small_camera().project(&origin).expect("ahead of the camera");

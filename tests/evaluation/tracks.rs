@@ -1,6 +1,6 @@
 //! Tracks against the surface points that they follow.
 
-use super::bench::{Bench, assert_near, figure, ground_under, landing_bench, picture_times, small_camera, true_camera};
+use super::bench::{Bench, assert_near, figure, ground_under, image_times, landing_bench, small_camera, true_camera};
 use nalgebra::Vector2;
 use std::fmt::Write;
 use std::fs;
@@ -10,7 +10,7 @@ fn track_bench(shift_px: f64) -> Bench {
     let bench = landing_bench();
     bench.put("summary.json", "{\"mission\": \"tracking\"}");
     let mut text = String::from("t_ns,track_id,u_px,v_px,sigma_px,response\n");
-    for (frame, t_ns) in picture_times().enumerate() {
+    for (frame, t_ns) in image_times().enumerate() {
         let camera_from_site = true_camera(t_ns).inverse();
         for id in 0..25 {
             let start = Vector2::new(20.0 + 5.5 * f64::from(id % 5), 14.0 + 4.7 * f64::from(id / 5));

@@ -104,7 +104,7 @@ fn a_shape_with_an_impossible_texture_number() {
 
 /// The folder was blamed.
 #[test]
-fn a_list_without_pictures() {
+fn a_list_without_images() {
     let dir = folder();
     image::GrayImage::new(4, 4).save(dir.path().join("x.png")).expect("a picture");
     std::fs::write(dir.path().join("data.csv"), "#timestamp [ns],filename\n").expect("a file");

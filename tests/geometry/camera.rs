@@ -93,7 +93,7 @@ fn nothing_behind_the_camera_has_a_pixel() {
 }
 
 #[test]
-fn a_lens_that_folds_over_brings_no_ghosts_into_the_picture() {
+fn a_lens_that_folds_over_brings_no_ghosts_into_the_image() {
     let camera = camera(Distortion::RadialTangential([-0.3, 0.0, 0.0, 0.0]));
     // Past 46° off the axis this polynomial turns back; without the check the point at 61° falls near the centre.
     assert!(camera.project(&Vector3::new(1.0, 0.0, 1.0)).is_some());
@@ -131,7 +131,7 @@ fn parameters_out_of_range_are_named() {
 }
 
 #[test]
-fn the_field_of_view_spans_the_outer_edges_of_the_picture() {
+fn the_field_of_view_spans_the_outer_edges_of_the_image() {
     let camera = Camera::from_fov(1024, 768, 60f64.to_radians());
     let edge = |u: f64| camera.unproject(&Vector2::new(u, camera.center_px.y)).expect("a pinhole").x.asin();
     assert!((edge(1023.5) - 30f64.to_radians()).abs() < 1e-12);
@@ -140,7 +140,7 @@ fn the_field_of_view_spans_the_outer_edges_of_the_picture() {
 }
 
 #[test]
-fn a_picture_contains_its_pixels_and_keeps_its_margin() {
+fn a_image_contains_its_pixels_and_keeps_its_margin() {
     let camera = Camera::from_fov(10, 8, 1.0);
     for (u, v, margin, inside) in [
         (-0.5, -0.5, 0.0, true),

@@ -125,7 +125,7 @@ fn the_tumbling_motion_converges_from_pixels_seed_2() {
 
 /// The check has to be able to fail: pictures in the wrong order are no tumbling motion.
 #[test]
-fn shuffled_pictures_do_not_converge() {
+fn shuffled_images_do_not_converge() {
     let folder = TempDir::new().expect("a temporary folder");
     let images = dataset("tumbling_small.toml", 3, folder.path());
     let list = images.join("cam0/data.csv");

@@ -16,7 +16,7 @@ fn new_error(mesh: Mesh, camera: &Camera) -> String {
 }
 
 #[test]
-fn the_smallest_pictures_are_pictures() {
+fn the_smallest_images_are_images() {
     let terrain = Terrain::new(&TerrainConfig::default(), 3);
     let body = SmallBody { mesh: lobed(20), surface: plain() };
     for (width_px, height_px) in [(1, 1), (1, 37), (41, 1), (3, 2)] {
@@ -63,7 +63,7 @@ fn faces_without_area_change_nothing() {
 }
 
 #[test]
-fn cameras_without_a_picture_are_refused() {
+fn cameras_without_a_image_are_refused() {
     let plain_camera = Camera::from_fov(64, 48, 0.5);
     for camera in [
         Camera { width_px: 0, ..plain_camera },
@@ -87,7 +87,7 @@ fn a_sun_that_is_no_direction_is_refused() {
 }
 
 #[test]
-fn a_body_far_away_or_behind_is_an_empty_picture() {
+fn a_body_far_away_or_behind_is_an_empty_image() {
     let body = SmallBody { mesh: lobed(20), surface: plain() };
     let camera = Camera::from_fov(64, 48, 0.5);
     let eye = Vector3::new(900.0, 800.0, 300.0);

@@ -7,7 +7,7 @@ use opnav::render::{RenderConfig, RenderError, Renderer, World};
 use opnav::scene::{Mesh, SmallBody, Terrain, TerrainConfig, View};
 
 #[test]
-fn views_that_cannot_be_pictures_are_refused() {
+fn views_that_cannot_be_images_are_refused() {
     let camera = Camera::from_fov(64, 64, 1.5);
     let terrain = Terrain::new(&TerrainConfig::default(), 3);
     let config = RenderConfig::default();
@@ -34,10 +34,7 @@ fn views_that_cannot_be_pictures_are_refused() {
     let fisheye = Camera { distortion: Distortion::Equidistant([0.0; 4]), focal_px, ..camera };
     assert!(matches!(Renderer::new(&gpu, World::Body(&body), &fisheye, &config), Err(RenderError::LensTooWide)));
     let huge = Camera::from_fov(200_000, 64, 1.0);
-    assert!(matches!(
-        Renderer::new(&gpu, World::Body(&body), &huge, &config),
-        Err(RenderError::PictureTooLarge { .. })
-    ));
+    assert!(matches!(Renderer::new(&gpu, World::Body(&body), &huge, &config), Err(RenderError::ImageTooLarge { .. })));
     let wrong = RenderConfig { supersampling: 0, ..config };
     let message = Renderer::new(&gpu, World::Body(&body), &camera, &wrong).expect_err("refused").to_string();
     assert!(message.contains("render.supersampling"), "{message}");

@@ -62,7 +62,7 @@ fn look(browser: &Path, html: &str) -> Seen {
 }
 
 #[test]
-fn a_browser_shows_every_picture_plot_and_row() {
+fn a_browser_shows_every_image_plot_and_row() {
     let Some(browser) = browser() else {
         eprintln!(
             "\n*** SKIPPED: no chromium, chromium-browser or google-chrome on PATH; the page was not opened ***\n"
@@ -79,7 +79,7 @@ fn a_browser_shows_every_picture_plot_and_row() {
     // The other way round: a picture that is none, and a plot without content, have to be noticed.
     let mut broken = page;
     let png = vec![0x89, b'P', b'N', b'G', 1, 2, 3];
-    broken.sections[2].blocks.push(Block::Picture(Picture { caption: "broken".into(), png }));
+    broken.sections[2].blocks.push(Block::PageImage(PageImage { caption: "broken".into(), png }));
     let svg = "<svg viewBox=\"0 0 100 1\"></svg>".into();
     broken.sections[2].blocks.push(Block::Plot(Plot { title: "empty".into(), svg, legend: vec![] }));
     assert_eq!(

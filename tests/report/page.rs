@@ -29,7 +29,7 @@ fn text_is_escaped() {
         Block::Notes(vec![evil.clone()]),
         Block::Verdicts(vec![verdict]),
         table,
-        Block::Picture(Picture { caption: evil.clone(), png: vec![] }),
+        Block::PageImage(PageImage { caption: evil.clone(), png: vec![] }),
         Block::Plot(plot),
     ];
     let section = Section { heading: evil.clone(), blocks };
@@ -39,7 +39,7 @@ fn text_is_escaped() {
 }
 
 #[test]
-fn every_plot_and_picture_says_what_it_shows() {
+fn every_plot_and_image_says_what_it_shows() {
     let html = render_page(&sample_page());
     assert_eq!(html.matches("<svg").count(), html.matches("<svg role=\"img\"").count());
     assert_eq!(html.matches("<svg").count(), html.matches("<title>").count() - 1);
@@ -58,11 +58,11 @@ fn tables_carry_units_and_readable_numbers() {
 }
 
 #[test]
-fn wide_pictures_are_shrunk_for_the_page() {
+fn wide_images_are_shrunk_for_the_page() {
     let wide = image::RgbImage::from_pixel(64, 48, image::Rgb([100, 90, 80]));
-    let small = image::load_from_memory(&picture_png(&wide, 32).expect("a PNG")).expect("it decodes");
+    let small = image::load_from_memory(&image_png(&wide, 32).expect("a PNG")).expect("it decodes");
     assert_eq!((small.width(), small.height()), (32, 24));
-    let same = image::load_from_memory(&picture_png(&wide, 100).expect("a PNG")).expect("it decodes");
+    let same = image::load_from_memory(&image_png(&wide, 100).expect("a PNG")).expect("it decodes");
     assert_eq!((same.width(), same.height()), (64, 48));
 }
 

@@ -140,11 +140,11 @@ fn frame(seed: f64) -> GrayImage {
     })
 }
 
-pub fn pictures() -> Vec<Picture> {
+pub fn pictures() -> Vec<PageImage> {
     let picture = |t: u32| {
         let drawn = image::DynamicImage::ImageLuma8(frame(f64::from(t))).to_rgb8();
         let caption = format!("Frame at {t} s");
-        Picture { caption, png: picture_png(&drawn, 640).expect("a PNG") }
+        PageImage { caption, png: image_png(&drawn, 640).expect("a PNG") }
     };
     vec![picture(0), picture(60), picture(120)]
 }

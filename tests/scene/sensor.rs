@@ -61,7 +61,7 @@ fn impossible_stages_are_refused_with_their_key() {
 }
 
 #[test]
-fn views_between_pictures_follow_the_motion() {
+fn views_between_images_follow_the_motion() {
     let text = |interval: &str| {
         format!(
             "[camera]\nwidth_px = 64\nheight_px = 64\n[tumbling]\nframes = 5\ninterval_s = {interval}\n\

@@ -160,7 +160,7 @@ fn a_bad_prediction_is_recovered_by_descriptors() {
 
 /// Low above the ground a picture shows what no map knows: it is made smaller until it does.
 #[test]
-fn a_near_picture_is_made_as_coarse_as_the_map() {
+fn a_near_image_is_made_as_coarse_as_the_map() {
     let pose = site_from_camera(Vector3::new(3.0, 4.0, 30.0), 3.0, 5.0);
     let fix = sightings(&WORLD.map, &picture(&WORLD, &pose, true), &predicted(&pose, 0.1, 1e-3));
     assert_eq!((fix.status, fix.scale), (MapStatus::Tracked, 2.0));

@@ -143,7 +143,7 @@ impl Flight<'_> {
         Some((after, (epoch, report.outcomes.len() - report.used())))
     }
 
-    /// Bearings of the known landmarks, of those followed and, in a camera's picture, of features.
+    /// Bearings of the known landmarks, of those followed and, in a camera's image, of features.
     fn bearings(&mut self, navigator: &Navigator, truth: &TrueState) -> Vec<BearingObservation> {
         let mut bearings = Vec::new();
         let followed = navigator.estimate.state.landmarks.iter().map(|l| l.track_id);

@@ -15,7 +15,7 @@ pub enum FieldOfView {
     /// Every direction, and a surface point wherever one is wished for: the paper's simulation.
     #[default]
     Everywhere,
-    /// A 90° camera along the thrust axis, and features at random places of its picture.
+    /// A 90° camera along the thrust axis, and features at random places of its image.
     Wide,
     /// A 60° camera turned 20° towards the site.
     Canted,

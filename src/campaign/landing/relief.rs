@@ -56,7 +56,7 @@ pub fn surface_point_m(
     ((point_m - truth.position_m).z < -1.0).then_some(point_m)
 }
 
-/// Surface points at random places of a camera's picture.
+/// Surface points at random places of a camera's image.
 pub fn features_m(
     truth: &TrueState,
     mount: &CameraMount,

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-/// One picture of a sequence.
+/// One image of a sequence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// Position in the sequence, from 0.
     pub index: usize,
     /// Time in ns.
     pub t_ns: i64,
-    /// The picture's file.
+    /// The image's file.
     pub path: PathBuf,
 }

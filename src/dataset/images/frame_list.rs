@@ -1,4 +1,4 @@
-//! Which pictures a folder holds, in which order, and when they were taken.
+//! Which images a folder holds, in which order, and when they were taken.
 
 use super::frame::Frame;
 use super::image_file::EXTENSIONS;
@@ -6,20 +6,20 @@ use crate::dataset::error::DatasetError;
 use crate::dataset::storage::{read_text, seconds_to_ns};
 use std::path::{Path, PathBuf};
 
-/// Where the time stamps of pictures come from.
+/// Where the time stamps of images come from.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum FrameTimes {
-    /// `data.csv` beside the pictures; else their names, where those are whole nanoseconds or seconds with a decimal
+    /// `data.csv` beside the images; else their names, where those are whole nanoseconds or seconds with a decimal
     /// point; else the camera file's rate; else 1 s apart.
     #[default]
     Folder,
-    /// A list of time and file name, a line a picture.
+    /// A list of time and file name, a line an image.
     List(PathBuf),
-    /// Pictures in the order of their names, taken this many times a second.
+    /// Images in the order of their names, taken this many times a second.
     RateHz(f64),
 }
 
-/// Pictures in order, and their times where the folder or the list tells them.
+/// Images in order, and their times where the folder or the list tells them.
 #[derive(Debug)]
 pub(super) struct FrameList {
     paths: Vec<PathBuf>,
@@ -27,10 +27,10 @@ pub(super) struct FrameList {
 }
 
 impl FrameList {
-    /// Lists the pictures of a folder, or of its `data/`.
+    /// Lists the images of a folder, or of its `data/`.
     ///
     /// # Errors
-    /// No pictures; a malformed list; times that do not increase.
+    /// No images; a malformed list; times that do not increase.
     pub(super) fn read(folder: &Path, times: &FrameTimes) -> Result<Self, DatasetError> {
         let beside = folder.join("data.csv");
         let list = match times {
@@ -46,7 +46,7 @@ impl FrameList {
         Ok(list)
     }
 
-    /// The pictures' files.
+    /// The images' files.
     pub(super) fn paths(&self) -> &[PathBuf] {
         &self.paths
     }
@@ -66,7 +66,7 @@ impl FrameList {
     }
 }
 
-/// Reads a list. A picture that it names and that is not there is for the one who loads it; if all are missing, the list
+/// Reads a list. An image that it names and that is not there is for the one who loads it; if all are missing, the list
 /// or the folder is the wrong one.
 fn listed(list: &Path, folder: &Path) -> Result<FrameList, DatasetError> {
     let text = read_text(list)?;
@@ -119,22 +119,22 @@ fn time_ns(text: &str) -> Option<i64> {
     t_ns.filter(|t: &i64| t.unsigned_abs() <= 1 << 62)
 }
 
-/// A picture that a list names: in the folder's `data/`, in the folder, or beside the list.
+/// An image that a list names: in the folder's `data/`, in the folder, or beside the list.
 fn place(name: &str, list: &Path, folder: &Path) -> PathBuf {
     let places = [folder.join("data").join(name), folder.join(name), list.with_file_name(name)];
     places.iter().find(|path| path.is_file()).unwrap_or(&places[0]).clone()
 }
 
-/// Pictures of a folder's `data/`, or else of the folder itself, sorted by name as people count.
+/// Images of a folder's `data/`, or else of the folder itself, sorted by name as people count.
 fn found(folder: &Path) -> Result<Vec<PathBuf>, DatasetError> {
     let folder = [folder.join("data"), folder.into()].into_iter().find(|f| f.is_dir()).expect("the second exists");
     let entries = std::fs::read_dir(&folder).map_err(DatasetError::io("list", &folder))?;
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(|path| is_picture(path)).collect();
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(|path| is_image(path)).collect();
     paths.sort_by(|a, b| natord::compare(&a.to_string_lossy(), &b.to_string_lossy()).then_with(|| a.cmp(b)));
     Ok(paths)
 }
 
-/// What to try instead of a folder without pictures.
+/// What to try instead of a folder without images.
 fn where_else(folder: &Path) -> String {
     let below = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let holds_some = |path: &PathBuf| path.join("cam0").is_dir() || found(path).is_ok_and(|paths| !paths.is_empty());
@@ -147,14 +147,14 @@ fn where_else(folder: &Path) -> String {
     }
 }
 
-/// Whether a file's extension is that of a picture; hidden files, which some systems leave beside pictures, are none.
-fn is_picture(path: &Path) -> bool {
+/// Whether a file's extension is that of an image; hidden files, which some systems leave beside images, are none.
+fn is_image(path: &Path) -> bool {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
     let hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
     EXTENSIONS.contains(&extension.as_str()) && !hidden && path.is_file()
 }
 
-/// Pictures whose names are times, in order of time. Small whole numbers only count; where no name is a time, the order
+/// Images whose names are times, in order of time. Small whole numbers only count; where no name is a time, the order
 /// stays.
 fn timed_by_names(paths: Vec<PathBuf>) -> Result<FrameList, DatasetError> {
     const LEAST_TIME: i64 = 1_000_000;

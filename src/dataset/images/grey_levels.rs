@@ -1,25 +1,25 @@
-//! How the numbers of pictures become 8-bit grey.
+//! How the numbers of images become 8-bit grey.
 
-use super::image_file::RawPicture;
+use super::image_file::RawImage;
 use image::{GrayImage, ImageBuffer, Luma};
 
-/// Which numbers become 0 and 255, alike for all pictures of a sequence, so that grey levels can be compared.
+/// Which numbers become 0 and 255, alike for all images of a sequence, so that grey levels can be compared.
 ///
-/// Pictures of 8 bits are taken as they are, unless their camera file states fewer `bits`. Pictures of 16 bits are
-/// divided by the largest number of the stated bits; where none are stated, of the bits that a sample of the pictures
-/// uses. Floating-point pictures are mapped from the range between the 0.1 % and 99.9 % quantiles of a sample, widened by
+/// Images of 8 bits are taken as they are, unless their camera file states fewer `bits`. Images of 16 bits are
+/// divided by the largest number of the stated bits; where none are stated, of the bits that a sample of the images
+/// uses. Floating-point images are mapped from the range between the 0.1 % and 99.9 % quantiles of a sample, widened by
 /// a tenth on both sides. What lies outside becomes 0 or 255; what is not a number becomes 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GreyLevels {
-    /// Bits that the numbers of 8-bit pictures use, 1 to 8.
+pub struct IntensityScale {
+    /// Bits that the numbers of 8-bit images use, 1 to 8.
     pub shallow_bits: u32,
-    /// Bits that the numbers of 16-bit pictures use, 1 to 16.
+    /// Bits that the numbers of 16-bit images use, 1 to 16.
     pub deep_bits: u32,
-    /// The numbers of floating-point pictures that become 0 and 255.
+    /// The numbers of floating-point images that become 0 and 255.
     pub real_range: [f32; 2],
 }
 
-/// A sample of the numbers of a sequence's deep pictures.
+/// A sample of the numbers of a sequence's deep images.
 #[derive(Debug, Default)]
 pub(super) struct NumberSample {
     /// The largest whole number.
@@ -28,15 +28,15 @@ pub(super) struct NumberSample {
 }
 
 impl NumberSample {
-    /// Most numbers kept of one picture.
-    const PER_PICTURE: usize = 50_000;
+    /// Most numbers kept of one image.
+    const PER_IMAGE: usize = 50_000;
 
-    pub(super) fn add(&mut self, picture: &RawPicture) {
+    pub(super) fn add(&mut self, picture: &RawImage) {
         match picture {
-            RawPicture::Shallow(_) => {}
-            RawPicture::Deep(deep) => self.largest = deep.iter().copied().fold(self.largest, u16::max),
-            RawPicture::Real(real) => {
-                let step = real.as_raw().len().div_ceil(Self::PER_PICTURE).max(1);
+            RawImage::Shallow(_) => {}
+            RawImage::Deep(deep) => self.largest = deep.iter().copied().fold(self.largest, u16::max),
+            RawImage::Real(real) => {
+                let step = real.as_raw().len().div_ceil(Self::PER_IMAGE).max(1);
                 self.reals.extend(real.iter().step_by(step).filter(|v| v.is_finite()));
             }
         }
@@ -58,8 +58,8 @@ impl NumberSample {
     }
 }
 
-impl GreyLevels {
-    /// From the bits that a camera file states, if any, and a sample of the deep pictures; what the sample decided is
+impl IntensityScale {
+    /// From the bits that a camera file states, if any, and a sample of the deep images; what the sample decided is
     /// added to `notes`.
     pub(super) fn new(stated_bits: Option<u32>, mut sample: NumberSample, notes: &mut Vec<String>) -> Self {
         let (found_bits, found_range) = (sample.bits().filter(|_| stated_bits.is_none()), sample.range());
@@ -73,19 +73,19 @@ impl GreyLevels {
             found_range
                 .map(|[black, white]| format!("floating-point pictures: {black} becomes 0 and {white} becomes 255")),
         );
-        GreyLevels {
+        IntensityScale {
             shallow_bits: stated_bits.unwrap_or(8).min(8),
             deep_bits: stated_bits.or(found_bits).unwrap_or(16),
             real_range: found_range.unwrap_or([0.0, 1.0]),
         }
     }
 
-    pub(super) fn to_eight_bits(self, picture: RawPicture) -> GrayImage {
+    pub(super) fn to_eight_bits(self, picture: RawImage) -> GrayImage {
         match picture {
-            RawPicture::Shallow(shallow) if self.shallow_bits < 8 => scaled(&shallow, self.shallow_bits),
-            RawPicture::Shallow(shallow) => shallow,
-            RawPicture::Deep(deep) => scaled(&deep, self.deep_bits),
-            RawPicture::Real(real) => {
+            RawImage::Shallow(shallow) if self.shallow_bits < 8 => scaled(&shallow, self.shallow_bits),
+            RawImage::Shallow(shallow) => shallow,
+            RawImage::Deep(deep) => scaled(&deep, self.deep_bits),
+            RawImage::Real(real) => {
                 let [black, white] = self.real_range;
                 let scale = 255.0 / (white - black);
                 // A cast turns what is not a number into 0.

@@ -1,10 +1,10 @@
-//! Grey pictures of 1 to 16 bits a pixel.
+//! Grey images of 1 to 16 bits a pixel.
 
 use image::{DynamicImage, GrayImage, ImageBuffer};
 
-/// A grey picture as a detector delivers it: digital numbers from 0 to 2^bits - 1, rows from the top.
+/// A grey image as a detector delivers it: digital numbers from 0 to 2^bits - 1, rows from the top.
 #[derive(Debug, Clone, PartialEq)]
-pub struct GreyPicture {
+pub struct GreyRaster {
     /// Width in px.
     pub width_px: u32,
     /// Height in px.
@@ -15,9 +15,9 @@ pub struct GreyPicture {
     pub numbers: Vec<u16>,
 }
 
-impl GreyPicture {
-    /// The picture as its file holds it: the numbers as they are, in 8 bits a pixel where they fit, else in 16.
-    /// `None` if the numbers do not fill the picture or exceed their bits.
+impl GreyRaster {
+    /// The image as its file holds it: the numbers as they are, in 8 bits a pixel where they fit, else in 16.
+    /// `None` if the numbers do not fill the image or exceed their bits.
     pub fn to_image(&self) -> Option<DynamicImage> {
         let largest = (1_u32 << self.bits.min(16)) - 1;
         if self.numbers.iter().any(|n| u32::from(*n) > largest) {

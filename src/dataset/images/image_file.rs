@@ -1,4 +1,4 @@
-//! Reading a picture of any kind: PNG, JPEG, TIFF, BMP or PNM; whole numbers or floating point; grey or colour.
+//! Reading an image of any kind: PNG, JPEG, TIFF, BMP or PNM; whole numbers or floating point; grey or colour.
 
 use crate::dataset::error::DatasetError;
 use image::{DynamicImage, GrayImage, ImageBuffer, ImageDecoder, ImageFormat, ImageReader, Luma};
@@ -9,14 +9,14 @@ use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult};
 use tiff::tags::Tag;
 
-/// Extensions of the files that count as pictures.
+/// Extensions of the files that count as images.
 pub(super) const EXTENSIONS: [&str; 10] = ["png", "jpg", "jpeg", "tif", "tiff", "bmp", "pgm", "ppm", "pbm", "pnm"];
 
-/// Most pixels of a picture: detection takes some 40 bytes a pixel.
+/// Most pixels of an image: detection takes some 40 bytes a pixel.
 const MOST_PIXELS: u64 = 1 << 26;
 
-/// A grey picture with the numbers of its file.
-pub enum RawPicture {
+/// A grey image with the numbers of its file.
+pub enum RawImage {
     /// Up to 8 bits a pixel.
     Shallow(GrayImage),
     /// Up to 16 bits a pixel.
@@ -25,7 +25,7 @@ pub enum RawPicture {
     Real(ImageBuffer<Luma<f32>, Vec<f32>>),
 }
 
-/// What a picture's header says.
+/// What an image's header says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Header {
     pub size_px: (u32, u32),
@@ -35,7 +35,7 @@ pub struct Header {
     is_real_grey: bool,
 }
 
-/// The kind of a picture's numbers.
+/// The kind of an image's numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Numbers {
     /// Up to 8 bits.
@@ -46,10 +46,10 @@ pub(super) enum Numbers {
     Real,
 }
 
-/// Reads a picture's header alone.
+/// Reads an image's header alone.
 ///
 /// # Errors
-/// Names a file that is missing, of no known kind, or whose picture has more than 2^26 pixels.
+/// Names a file that is missing, of no known kind, or whose image has more than 2^26 pixels.
 pub fn read_header(path: &Path) -> Result<Header, DatasetError> {
     let unusable = unusable(path);
     let reader = ImageReader::open(path)
@@ -77,11 +77,11 @@ pub fn read_header(path: &Path) -> Result<Header, DatasetError> {
     Ok(header)
 }
 
-/// Reads a picture's numbers; colour becomes grey by Rec. 709, transparency and the orientation tag are passed over.
+/// Reads an image's numbers; colour becomes grey by Rec. 709, transparency and the orientation tag are passed over.
 ///
 /// # Errors
-/// Names a picture that is damaged or cut short.
-pub fn read_numbers(path: &Path, header: &Header) -> Result<RawPicture, DatasetError> {
+/// Names an image that is damaged or cut short.
+pub fn read_numbers(path: &Path, header: &Header) -> Result<RawImage, DatasetError> {
     let unusable = unusable(path);
     if header.is_real_grey {
         return real_tiff(path, header).map_err(unusable);
@@ -90,14 +90,14 @@ pub fn read_numbers(path: &Path, header: &Header) -> Result<RawPicture, DatasetE
     if header.format == ImageFormat::Jpeg && !jpeg_is_whole(&bytes) {
         return Err(unusable("the file is cut short".into()));
     }
-    let picture = ImageReader::with_format(Cursor::new(bytes), header.format).decode();
-    Ok(match picture.map_err(|e| unusable(e.to_string()))? {
+    let image = ImageReader::with_format(Cursor::new(bytes), header.format).decode();
+    Ok(match image.map_err(|e| unusable(e.to_string()))? {
         deep @ (DynamicImage::ImageLuma16(_)
         | DynamicImage::ImageLumaA16(_)
         | DynamicImage::ImageRgb16(_)
-        | DynamicImage::ImageRgba16(_)) => RawPicture::Deep(deep.into_luma16()),
-        real @ (DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_)) => RawPicture::Real(grey(&real)),
-        shallow => RawPicture::Shallow(shallow.into_luma8()),
+        | DynamicImage::ImageRgba16(_)) => RawImage::Deep(deep.into_luma16()),
+        real @ (DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_)) => RawImage::Real(grey(&real)),
+        shallow => RawImage::Shallow(shallow.into_luma8()),
     })
 }
 
@@ -108,8 +108,8 @@ fn unusable(path: &Path) -> impl Fn(String) -> DatasetError {
     }
 }
 
-fn grey(picture: &DynamicImage) -> ImageBuffer<Luma<f32>, Vec<f32>> {
-    let colours = picture.to_rgb32f();
+fn grey(image: &DynamicImage) -> ImageBuffer<Luma<f32>, Vec<f32>> {
+    let colours = image.to_rgb32f();
     let grey = |p: &image::Rgb<f32>| 0.2126 * p.0[0] + 0.7152 * p.0[1] + 0.0722 * p.0[2];
     let values = colours.pixels().map(grey).collect();
     ImageBuffer::from_raw(colours.width(), colours.height(), values).expect("one value a pixel")
@@ -130,7 +130,7 @@ fn tiff_header(path: &Path) -> tiff::TiffResult<Header> {
     Ok(Header { size_px: decoder.dimensions()?, numbers, format: ImageFormat::Tiff, is_real_grey })
 }
 
-fn real_tiff(path: &Path, header: &Header) -> Result<RawPicture, String> {
+fn real_tiff(path: &Path, header: &Header) -> Result<RawImage, String> {
     let file = File::open(path).map_err(|e| e.to_string())?;
     let mut decoder = Decoder::new(BufReader::new(file)).map_err(|e| e.to_string())?;
     let values: Vec<f32> = match decoder.read_image().map_err(|e| e.to_string())? {
@@ -143,8 +143,8 @@ fn real_tiff(path: &Path, header: &Header) -> Result<RawPicture, String> {
         _ => return Err("numbers of this kind are not read; save it with 32-bit floats".into()),
     };
     let (width_px, height_px) = header.size_px;
-    let picture = ImageBuffer::from_raw(width_px, height_px, values);
-    picture.map(RawPicture::Real).ok_or_else(|| "numbers are missing".into())
+    let image = ImageBuffer::from_raw(width_px, height_px, values);
+    image.map(RawImage::Real).ok_or_else(|| "numbers are missing".into())
 }
 
 /// Whether a JPEG goes on to its end marker: decoders fill what is missing with grey and say nothing.

@@ -1,4 +1,4 @@
-//! Pictures and their lists: image sequences, image files, intensity scaling, rasters, the camera that took them.
+//! Images and their lists: image sequences, image files, intensity scaling, rasters, the camera that took them.
 
 mod frame;
 mod frame_list;
@@ -11,9 +11,9 @@ mod sequence;
 
 pub use frame::Frame;
 pub use frame_list::FrameTimes;
-pub use grey_levels::GreyLevels;
-pub use image::GreyPicture;
-pub use image_file::{RawPicture, read_header, read_numbers};
+pub use grey_levels::IntensityScale;
+pub use image::GreyRaster;
+pub use image_file::{RawImage, read_header, read_numbers};
 pub use raster::{
     encode_grey_png, encode_scalar_tiff, encode_vector_tiff, read_depth_tiff, read_mask_png, read_normals_tiff,
     write_depth_tiff, write_grey_png,

@@ -1,4 +1,4 @@
-//! Pictures: grey PNG, float TIFF of depth, albedo or normals, mask PNG.
+//! Images: grey PNG, float TIFF of depth, albedo or normals, mask PNG.
 
 use crate::dataset::error::DatasetError;
 use crate::dataset::storage::write_atomically;
@@ -12,10 +12,10 @@ use tiff::encoder::colortype::{ColorType, Gray32Float, RGB32Float};
 ///
 /// # Errors
 /// [`DatasetError::Unusable`] names `path`.
-pub fn encode_grey_png(path: &Path, picture: &DynamicImage) -> Result<Vec<u8>, DatasetError> {
-    let mut bytes = Vec::with_capacity(picture.as_bytes().len() + 1024);
+pub fn encode_grey_png(path: &Path, image: &DynamicImage) -> Result<Vec<u8>, DatasetError> {
+    let mut bytes = Vec::with_capacity(image.as_bytes().len() + 1024);
     let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Up);
-    picture
+    image
         .write_with_encoder(encoder)
         .map_err(|e| DatasetError::Unusable { path: path.into(), problem: e.to_string() })?;
     Ok(bytes)
@@ -25,8 +25,8 @@ pub fn encode_grey_png(path: &Path, picture: &DynamicImage) -> Result<Vec<u8>, D
 ///
 /// # Errors
 /// [`DatasetError::Io`] with the path.
-pub fn write_grey_png(path: &Path, picture: &GrayImage) -> Result<(), DatasetError> {
-    let bytes = encode_grey_png(path, &DynamicImage::ImageLuma8(picture.clone()))?;
+pub fn write_grey_png(path: &Path, image: &GrayImage) -> Result<(), DatasetError> {
+    let bytes = encode_grey_png(path, &DynamicImage::ImageLuma8(image.clone()))?;
     write_atomically(path, |w| w.write_all(&bytes))
 }
 
@@ -35,15 +35,14 @@ pub fn write_grey_png(path: &Path, picture: &GrayImage) -> Result<(), DatasetErr
 /// # Errors
 /// Names the file.
 pub fn read_mask_png(path: &Path) -> Result<GrayImage, DatasetError> {
-    let picture =
-        image::open(path).map_err(|e| DatasetError::Unusable { path: path.into(), problem: e.to_string() })?;
-    Ok(picture.to_luma8())
+    let image = image::open(path).map_err(|e| DatasetError::Unusable { path: path.into(), problem: e.to_string() })?;
+    Ok(image.to_luma8())
 }
 
 /// The content of a float32 TIFF of one channel (depth in m, albedo), rows from the top, not compressed.
 ///
 /// # Errors
-/// [`DatasetError::Unusable`] names `path` if the values do not fill the picture.
+/// [`DatasetError::Unusable`] names `path` if the values do not fill the image.
 pub fn encode_scalar_tiff(path: &Path, size_px: (u32, u32), values: &[f32]) -> Result<Vec<u8>, DatasetError> {
     encode_float_tiff::<Gray32Float>(path, size_px, values)
 }
@@ -51,7 +50,7 @@ pub fn encode_scalar_tiff(path: &Path, size_px: (u32, u32), values: &[f32]) -> R
 /// The content of a float32 TIFF of three channels, such as surface normals; rows from the top, not compressed.
 ///
 /// # Errors
-/// [`DatasetError::Unusable`] names `path` if the values do not fill the picture.
+/// [`DatasetError::Unusable`] names `path` if the values do not fill the image.
 pub fn encode_vector_tiff(path: &Path, size_px: (u32, u32), values: &[[f32; 3]]) -> Result<Vec<u8>, DatasetError> {
     encode_float_tiff::<RGB32Float>(path, size_px, values.as_flattened())
 }
@@ -83,7 +82,7 @@ pub fn write_depth_tiff(path: &Path, width_px: u32, height_px: u32, depth_m: &[f
 /// Reads a float32 TIFF of one channel: z-depth in m, or albedo.
 ///
 /// # Errors
-/// Names the file, and says so if it is not a float picture of one channel.
+/// Names the file, and says so if it is not a float image of one channel.
 pub fn read_depth_tiff(path: &Path) -> Result<ImageBuffer<Luma<f32>, Vec<f32>>, DatasetError> {
     let (size_px, values) = read_float_tiff(path)?;
     ImageBuffer::from_raw(size_px.0, size_px.1, values).ok_or_else(|| wrong_channels(path, "one channel"))
@@ -92,7 +91,7 @@ pub fn read_depth_tiff(path: &Path) -> Result<ImageBuffer<Luma<f32>, Vec<f32>>, 
 /// Reads a float32 TIFF of three channels: surface normals in reference axes.
 ///
 /// # Errors
-/// Names the file, and says so if it is not a float picture of three channels.
+/// Names the file, and says so if it is not a float image of three channels.
 pub fn read_normals_tiff(path: &Path) -> Result<ImageBuffer<Rgb<f32>, Vec<f32>>, DatasetError> {
     let (size_px, values) = read_float_tiff(path)?;
     let complete = values.len() as u64 == 3 * u64::from(size_px.0) * u64::from(size_px.1);

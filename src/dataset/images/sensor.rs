@@ -7,16 +7,16 @@ use nalgebra::{Isometry3, Matrix3, Matrix4, Rotation3, Translation3, UnitQuatern
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// A camera, how it is mounted, and how often it takes a picture.
+/// A camera, how it is mounted, and how often it takes an image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraSensor {
     /// Intrinsic parameters.
     pub camera: Camera,
     /// Pose of the camera in the spacecraft's frame (`T_BS`), m.
     pub spacecraft_from_camera: Isometry3<f64>,
-    /// Nominal pictures a second, where the file says so.
+    /// Nominal images a second, where the file says so.
     pub rate_hz: Option<f64>,
-    /// Bits a pixel that the pictures' numbers use, 1 to 16; all bits of their files if `None`.
+    /// Bits a pixel that the images' numbers use, 1 to 16; all bits of their files if `None`.
     pub bits: Option<u32>,
 }
 

@@ -1,8 +1,8 @@
-//! Image sequences: our data sets, EuRoC folders, and plain folders of pictures.
+//! Image sequences: our data sets, EuRoC folders, and plain folders of images.
 
 use super::frame::Frame;
 use super::frame_list::{FrameList, FrameTimes};
-use super::grey_levels::{GreyLevels, NumberSample};
+use super::grey_levels::{IntensityScale, NumberSample};
 use super::image_file::{Header, Numbers, read_header, read_numbers};
 use super::sensor::{CameraSensor, read_camera_sensor};
 use crate::dataset::error::DatasetError;
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// Where the camera's parameters come from.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum CameraSource {
-    /// `sensor.yaml` beside the pictures.
+    /// `sensor.yaml` beside the images.
     #[default]
     Folder,
     /// A camera file.
@@ -23,29 +23,29 @@ pub enum CameraSource {
     HorizontalFov(f64),
 }
 
-/// A sequence of pictures of one camera.
+/// A sequence of images of one camera.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImageSequence {
-    /// The folder that holds `cam0/`, `imu0/` and the rest; the folder of pictures itself where there is no layout.
+    /// The folder that holds `cam0/`, `imu0/` and the rest; the folder of images itself where there is no layout.
     pub root: PathBuf,
     /// The camera.
     pub sensor: CameraSensor,
-    /// The pictures, times strictly increasing.
+    /// The images, times strictly increasing.
     pub frames: Vec<Frame>,
     /// How their numbers become 8-bit grey.
-    pub levels: GreyLevels,
+    pub levels: IntensityScale,
     /// What had to be assumed, in words for the user.
     pub notes: Vec<String>,
 }
 
-/// Pictures that are looked at beforehand, for their size and their numbers.
+/// Images that are looked at beforehand, for their size and their numbers.
 const SAMPLES: usize = 16;
 
 impl ImageSequence {
-    /// Opens a data set (`cam0/`), a EuRoC folder (`mav0/cam0/`) or a plain folder of pictures.
+    /// Opens a data set (`cam0/`), a EuRoC folder (`mav0/cam0/`) or a plain folder of images.
     ///
     /// # Errors
-    /// No folder, no pictures, no camera file and no field of view, or a malformed list of frames.
+    /// No folder, no images, no camera file and no field of view, or a malformed list of frames.
     pub fn open(folder: &Path, source: &CameraSource) -> Result<Self, DatasetError> {
         Self::open_timed(folder, source, &FrameTimes::Folder)
     }
@@ -61,10 +61,10 @@ impl ImageSequence {
         }
         let layout_root = [folder.join("mav0"), folder.into()].into_iter().find(|root| root.join("cam0").is_dir());
         let root = layout_root.clone().unwrap_or_else(|| folder.into());
-        let pictures = if layout_root.is_some() { root.join("cam0") } else { root.clone() };
-        let list = FrameList::read(&pictures, times)?;
+        let images = if layout_root.is_some() { root.join("cam0") } else { root.clone() };
+        let list = FrameList::read(&images, times)?;
         let sensor = match source {
-            CameraSource::Folder => read_camera_sensor(&pictures.join("sensor.yaml"))?,
+            CameraSource::Folder => read_camera_sensor(&images.join("sensor.yaml"))?,
             CameraSource::File(path) => read_camera_sensor(path)?,
             CameraSource::HorizontalFov(fov_rad) => sensor_from_fov(list.paths(), *fov_rad)?,
         };
@@ -74,10 +74,10 @@ impl ImageSequence {
         Ok(ImageSequence { root, sensor, frames: list.into_frames(rate_hz), levels, notes })
     }
 
-    /// Loads a picture as 8-bit grey, see [`GreyLevels`], and checks its size against the camera's.
+    /// Loads an image as 8-bit grey, see [`IntensityScale`], and checks its size against the camera's.
     ///
     /// # Errors
-    /// Names a picture that cannot be read, is of the wrong size, or has more than 2^26 pixels.
+    /// Names an image that cannot be read, is of the wrong size, or has more than 2^26 pixels.
     pub fn load(&self, frame: &Frame) -> Result<GrayImage, DatasetError> {
         let header = read_header(&frame.path)?;
         let expected_px = self.sensor.camera.size_px();
@@ -90,13 +90,13 @@ impl ImageSequence {
     }
 }
 
-/// Some of the pictures, spread over all, the first and the last among them.
+/// Some of the images, spread over all, the first and the last among them.
 fn sample(paths: &[PathBuf]) -> impl Iterator<Item = &PathBuf> {
     let count = SAMPLES.min(paths.len());
     (0..count).map(move |k| &paths[k * (paths.len() - 1) / (count - 1).max(1)])
 }
 
-/// A pinhole camera for the size that most of the sampled pictures have.
+/// A pinhole camera for the size that most of the sampled images have.
 fn sensor_from_fov(paths: &[PathBuf], fov_rad: f64) -> Result<CameraSensor, DatasetError> {
     if !(fov_rad > 0.0 && fov_rad < std::f64::consts::PI) {
         let problem = format!("a field of view of {} degrees is not between 0 and 180", fov_rad.to_degrees());
@@ -114,13 +114,13 @@ fn sensor_from_fov(paths: &[PathBuf], fov_rad: f64) -> Result<CameraSensor, Data
     Ok(CameraSensor { camera, spacecraft_from_camera: Isometry3::identity(), rate_hz: None, bits: None })
 }
 
-/// The first header that can be read; the first picture's problem if none can.
+/// The first header that can be read; the first image's problem if none can.
 fn first_readable(paths: &[PathBuf]) -> Result<Header, DatasetError> {
     let first = read_header(&paths[0]);
     if first.is_ok() { first } else { paths.iter().find_map(|path| read_header(path).ok()).map_or(first, Ok) }
 }
 
-/// Pictures a second where nothing else tells their times.
+/// Images a second where nothing else tells their times.
 fn rate_hz(
     folder: &Path,
     times: &FrameTimes,
@@ -142,8 +142,8 @@ fn rate_hz(
     Ok(sensor.rate_hz.unwrap_or(1.0))
 }
 
-/// Grey levels from a sample of the pictures, where those have more than 8 bits.
-fn levels(paths: &[PathBuf], sensor: &CameraSensor, notes: &mut Vec<String>) -> GreyLevels {
+/// Grey levels from a sample of the images, where those have more than 8 bits.
+fn levels(paths: &[PathBuf], sensor: &CameraSensor, notes: &mut Vec<String>) -> IntensityScale {
     let deep = |path: &PathBuf| {
         let needed = |h: &Header| match h.numbers {
             Numbers::Shallow => false,
@@ -154,6 +154,6 @@ fn levels(paths: &[PathBuf], sensor: &CameraSensor, notes: &mut Vec<String>) -> 
         read_numbers(path, &header).ok()
     };
     let mut numbers = NumberSample::default();
-    sample(paths).filter_map(deep).for_each(|picture| numbers.add(&picture));
-    GreyLevels::new(sensor.bits, numbers, notes)
+    sample(paths).filter_map(deep).for_each(|image| numbers.add(&image));
+    IntensityScale::new(sensor.bits, numbers, notes)
 }

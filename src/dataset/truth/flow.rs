@@ -6,15 +6,15 @@ use crate::dataset::error::DatasetError;
 use nalgebra::Vector2;
 use std::path::Path;
 
-/// Motion of each pixel's surface point to the next picture.
+/// Motion of each pixel's surface point to the next image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OpticalFlow {
     /// Width in px.
     pub width_px: u32,
     /// Height in px.
     pub height_px: u32,
-    /// Pixel in the next picture less pixel in this one, rows from the top; NaN where the point is not visible in the
-    /// next picture, or where there is no surface.
+    /// Pixel in the next image less pixel in this one, rows from the top; NaN where the point is not visible in the
+    /// next image, or where there is no surface.
     pub motion_px: Vec<Vector2<f32>>,
 }
 

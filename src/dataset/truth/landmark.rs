@@ -1,4 +1,4 @@
-//! Landmarks on the surface and where they fall in the pictures.
+//! Landmarks on the surface and where they fall in the images.
 
 use super::layout::truth_folder;
 use crate::dataset::error::DatasetError;
@@ -16,7 +16,7 @@ pub struct Landmark {
     pub position_m: Vector3<f64>,
 }
 
-/// Where a landmark falls in a picture.
+/// Where a landmark falls in an image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LandmarkObservation {
     /// Time of the frame in ns.
@@ -27,7 +27,7 @@ pub struct LandmarkObservation {
     pub id: u32,
     /// Exact pixel.
     pub pixel_px: Vector2<f64>,
-    /// Inside the picture and not hidden by the surface.
+    /// Inside the image and not hidden by the surface.
     pub visible: bool,
 }
 

@@ -14,7 +14,7 @@ pub enum TruthRaster {
     Normals,
     /// Albedo, float TIFF.
     Albedo,
-    /// Motion to the next picture in px, Middlebury `.flo`.
+    /// Motion to the next image in px, Middlebury `.flo`.
     Flow,
 }
 
@@ -29,7 +29,7 @@ impl TruthRaster {
         }
     }
 
-    /// Path of one picture's file relative to the data set's root, such as `truth/depth/cam0/0.tiff` or
+    /// Path of one image's file relative to the data set's root, such as `truth/depth/cam0/0.tiff` or
     /// `truth/node1/depth/cam0/0.tiff`.
     pub fn file(self, camera: &CameraId, t_ns: i64) -> String {
         let (folder, extension) = self.folder_and_extension();

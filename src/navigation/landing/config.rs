@@ -70,7 +70,7 @@ pub struct LandingConfig {
     pub gate_confidence: f64,
     /// Gauss–Newton steps of the first correction, 1 or more (default 6); later ones take one step.
     pub first_iterations: usize,
-    /// A new landmark has to stay this far from the picture's edge while it is needed, px, 0 or more (default 4).
+    /// A new landmark has to stay this far from the image's edge while it is needed, px, 0 or more (default 4).
     pub edge_margin_px: f64,
     /// What is known of the ground's height.
     pub ground: GroundPrior,
@@ -114,7 +114,7 @@ impl Default for LandingConfig {
 }
 
 impl LandingConfig {
-    /// Options for bearings from real pictures: three unknown landmarks at a time, each kept for at least eight
+    /// Options for bearings from real images: three unknown landmarks at a time, each kept for at least eight
     /// observations, since long tracks bring the parallax that short ones lack.
     pub fn from_pixels() -> Self {
         LandingConfig { unknown_landmarks: 3, reselect_after: 8, ..LandingConfig::default() }

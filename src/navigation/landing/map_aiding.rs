@@ -1,4 +1,4 @@
-//! Known points from a map: the descent is flown by the IMU and the map alone, so that each picture is searched where the
+//! Known points from a map: the descent is flown by the IMU and the map alone, so that each image is searched where the
 //! camera must be; and the designated point is held against where the map says the site's origin is.
 
 use super::bearings::{BearingObservation, CameraMount, CorrectionModel, KnownSighting, correct};

@@ -2,7 +2,7 @@
 
 use nalgebra::{Unit, Vector3};
 
-/// A feature in the picture that could become the unknown landmark.
+/// A feature in the image that could become the unknown landmark.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Candidate {
     /// The feature's track.

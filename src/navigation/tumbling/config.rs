@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub enum Estimator {
     /// The extended Kalman filter of Deng et al. (2024) on the chained attitude: the baseline.
     Paper,
-    /// Shooting over a first arc, then a filter with stored attitudes, one picture at a time.
+    /// Shooting over a first arc, then a filter with stored attitudes, one image at a time.
     Realtime,
     /// Batch fit of the free-body motion to all pairs: the best of the three.
     #[default]
@@ -22,7 +22,7 @@ pub enum Estimator {
 #[cfg_attr(feature = "settings", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum PaperIntegration {
-    /// One Euler step a picture, `Φ = I + C ΔT`, as printed (equations 34 and 36).
+    /// One Euler step an image, `Φ = I + C ΔT`, as printed (equations 34 and 36).
     #[default]
     Euler,
     /// Runge–Kutta sub-steps and the exact transition matrix.
@@ -68,7 +68,7 @@ impl Default for PaperConfig {
 pub struct TumblingConfig {
     /// Which estimator (default shooting).
     pub estimator: Estimator,
-    /// Length in s of the first arc that shooting fits, above 0 (default 40). At least 20 picture intervals are taken in any case.
+    /// Length in s of the first arc that shooting fits, above 0 (default 40). At least 20 image intervals are taken in any case.
     pub first_arc_s: f64,
     /// Factor by which the arc grows from fit to fit, above 1 (default 1.6): a fit of a long arc at once fails.
     pub growth: f64,

@@ -20,21 +20,21 @@ pub enum TumblingError {
         /// The least number.
         needed: usize,
     },
-    /// Too few pictures, or their times are out of order.
+    /// Too few images, or their times are out of order.
     #[error("the times of the {frames} pictures are not usable: at least 4 are needed, each after the one before")]
     FrameTimes {
-        /// Number of pictures.
+        /// Number of images.
         frames: usize,
     },
-    /// A pair at a time where there is no picture, or with its times reversed.
+    /// A pair at a time where there is no image, or with its times reversed.
     #[error(
         "the image pair from {t_ns_from} ns to {t_ns_to} ns does not join an earlier picture to a later one of this \
          sequence: give the rotations and the pictures of the same sequence"
     )]
     UnknownPair {
-        /// Time of the first picture in ns.
+        /// Time of the first image in ns.
         t_ns_from: i64,
-        /// Time of the second picture in ns.
+        /// Time of the second image in ns.
         t_ns_to: i64,
     },
     /// A rotation or covariance that is no number, or a covariance that is not positive definite.
@@ -42,9 +42,9 @@ pub enum TumblingError {
         "the image pair from {t_ns_from} ns to {t_ns_to} ns has {problem}: mark it as rejected, or repair the front end"
     )]
     BadPair {
-        /// Time of the first picture in ns.
+        /// Time of the first image in ns.
         t_ns_from: i64,
-        /// Time of the second picture in ns.
+        /// Time of the second image in ns.
         t_ns_to: i64,
         /// What is wrong with it.
         problem: &'static str,

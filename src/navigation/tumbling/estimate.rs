@@ -1,4 +1,4 @@
-//! The estimate from rotations between pictures: the recipe.
+//! The estimate from rotations between images: the recipe.
 
 use super::config::{Estimator, TumblingConfig};
 use super::error::TumblingError;
@@ -8,7 +8,7 @@ use super::result::{PairCount, TumblingResult};
 use super::shooting::{ShootingFit, seconds, shoot, shooting_epochs};
 use crate::observations::RelativeRotation;
 
-/// Attitude, rate and inertia ratios at each picture of `frame_times_ns`, from the rotations with status ok between them.
+/// Attitude, rate and inertia ratios at each image of `frame_times_ns`, from the rotations with status ok between them.
 ///
 /// A rotation is camera(t_to)_from_camera(t_from) of a camera that seems to move around a resting body:
 /// `asteroid_from_camera(t_to)⁻¹ * asteroid_from_camera(t_from)`. The camera itself must not turn, and the body must turn

@@ -12,7 +12,7 @@ const ESTIMATE_HEADER: &str = "t_ns,qw,qx,qy,qz,wx_rad_s,wy_rad_s,wz_rad_s,Lxx,L
 /// Axes of the 6×6 covariance: attitude error in inertial axes (rad), rate error in asteroid axes (rad/s).
 const ERROR_AXES: [&str; 6] = ["ax", "ay", "az", "wx", "wy", "wz"];
 
-/// Writes the estimate of each picture: attitude `asteroid_from_inertial`, rate in asteroid axes, inertia ratios, then 1σ
+/// Writes the estimate of each image: attitude `asteroid_from_inertial`, rate in asteroid axes, inertia ratios, then 1σ
 /// of each (attitude in inertial axes). Elements of the inertia that are not determined are `NaN`.
 ///
 /// # Errors
@@ -30,7 +30,7 @@ pub fn write_estimate_csv(path: &Path, result: &TumblingResult) -> Result<(), Tu
     write_rows(path, ESTIMATE_HEADER, rows.collect())
 }
 
-/// Writes the upper triangle, row by row, of the 6×6 covariance of each picture: (attitude error in inertial axes in rad,
+/// Writes the upper triangle, row by row, of the 6×6 covariance of each image: (attitude error in inertial axes in rad,
 /// rate error in asteroid axes in rad/s).
 ///
 /// # Errors

@@ -1,7 +1,7 @@
-//! Attitude, spin and inertia ratios of a small body that turns freely, from rotations between pictures.
+//! Attitude, spin and inertia ratios of a small body that turns freely, from rotations between images.
 //!
-//! The camera does not turn, so its axes are the inertial ones; the asteroid axes are the camera's at the first picture.
-//! A pair of pictures gives `camera(to)_from_camera(from)` as a camera that moves around a resting body would see it, which
+//! The camera does not turn, so its axes are the inertial ones; the asteroid axes are the camera's at the first image.
+//! A pair of images gives `camera(to)_from_camera(from)` as a camera that moves around a resting body would see it, which
 //! is `A(to)⁻¹ A(from)` with `A = asteroid_from_inertial`. The motion is Euler's, so eight numbers say everything: the
 //! initial rate and five inertia ratios. [`estimate`] is the way in. Where the motion does not show a direction of the
 //! inertia (a pure spin hides three), the result names the direction and gives no number for it.

@@ -1,4 +1,4 @@
-//! Rotations between pictures as measurements of the motion.
+//! Rotations between images as measurements of the motion.
 
 use super::error::TumblingError;
 use super::motion::TrajectoryPoint;
@@ -9,13 +9,13 @@ use nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
 /// Fewest usable pairs: two more than the eight unknowns ask for.
 const LEAST_PAIRS: usize = 5;
 
-/// A measured rotation `camera(to)_from_camera(from)` between two pictures, as a camera that moves around the resting
+/// A measured rotation `camera(to)_from_camera(from)` between two images, as a camera that moves around the resting
 /// body would see it: `A(to)⁻¹ A(from)` with `A = asteroid_from_inertial`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RotationPair {
-    /// Number of the first picture.
+    /// Number of the first image.
     pub from: usize,
-    /// Number of the second picture, larger.
+    /// Number of the second image, larger.
     pub to: usize,
     /// The rotation.
     pub measured: UnitQuaternion<f64>,
@@ -47,10 +47,10 @@ impl RotationPair {
     }
 }
 
-/// The usable pairs (status ok) by picture number, sorted by their second picture.
+/// The usable pairs (status ok) by image number, sorted by their second image.
 ///
 /// # Errors
-/// Names a pair that is not between two pictures, is not finite, or has no positive definite covariance; too few pairs.
+/// Names a pair that is not between two images, is not finite, or has no positive definite covariance; too few pairs.
 pub(super) fn usable_pairs(
     rotations: &[RelativeRotation],
     frame_times_ns: &[i64],

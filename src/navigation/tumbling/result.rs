@@ -4,17 +4,17 @@ use super::bounds::{UndeterminedDirection, determined_elements};
 use super::motion::{InertiaRatios, SpinState};
 use nalgebra::{SMatrix, UnitQuaternion, Vector3};
 
-/// The estimate at one picture.
+/// The estimate at one image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TumblingEpoch {
-    /// Time of the picture in ns.
+    /// Time of the image in ns.
     pub t_ns: i64,
-    /// Attitude (Hamilton); inertial axes are the camera's, asteroid axes the camera's at the first picture.
+    /// Attitude (Hamilton); inertial axes are the camera's, asteroid axes the camera's at the first image.
     pub asteroid_from_inertial: UnitQuaternion<f64>,
     /// Angular rate in asteroid axes, rad/s.
     pub rate_in_asteroid_rad_s: Vector3<f64>,
     /// Covariance of `truth.minus(estimate)` of [`SpinState`]: (attitude error in inertial axes in rad, `truth = estimate
-    /// * exp(d)`; rate error in asteroid axes in rad/s). The attitude block of the first picture is zero: the attitude is
+    /// * exp(d)`; rate error in asteroid axes in rad/s). The attitude block of the first image is zero: the attitude is
     ///   the identity there by definition.
     pub covariance: SMatrix<f64, 6, 6>,
     /// The inertia known at this epoch.
@@ -57,7 +57,7 @@ impl InertiaKnowledge {
 /// The motion along the whole sequence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TumblingResult {
-    /// One epoch a picture.
+    /// One epoch an image.
     pub epochs: Vec<TumblingEpoch>,
     /// Inertia ratios (Lxx, Lyy, Lxy, Lxz, Lyz) at the end; `None` if any direction is not determined (single elements
     /// may still stand in the last epoch).
@@ -66,7 +66,7 @@ pub struct TumblingResult {
     pub inertia_sigma: Option<[f64; 5]>,
     /// Covariance of the ratios.
     pub inertia_covariance: Option<SMatrix<f64, 5, 5>>,
-    /// Directions of the inertia that the pictures do not determine. The paper's filter cannot tell and leaves it empty.
+    /// Directions of the inertia that the images do not determine. The paper's filter cannot tell and leaves it empty.
     pub undetermined: Vec<UndeterminedDirection>,
     /// Root mean square of the used pairs' residuals over their standard deviations: 1 if the pairs' covariances hold.
     pub residual_rms_sigma: f64,

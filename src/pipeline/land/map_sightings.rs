@@ -1,4 +1,4 @@
-//! Known points for a descent: each picture matched with a map from where the filter predicts the camera.
+//! Known points for a descent: each image matched with a map from where the filter predicts the camera.
 
 use crate::dataset::{GroundMap, ImageSequence};
 use crate::navigation::landing::{KnownSighting, LandingConfig, LandingInput, SightedByMap, sighted_by_map};
@@ -10,10 +10,10 @@ use crate::pipeline::summary::Summary;
 use crate::vision::{DesignatedStep, MapFeatures, MapFix, MapMatcher, MapSighting, MapStatus};
 use std::time::Instant;
 
-/// Sightings of the map's points in every picture of a descent, counted in the summary.
+/// Sightings of the map's points in every image of a descent, counted in the summary.
 ///
 /// # Errors
-/// Settings out of range, or IMU samples that do not fit the pictures.
+/// Settings out of range, or IMU samples that do not fit the images.
 pub(super) fn known_sightings(
     sequence: &ImageSequence,
     (input, settings): (&LandingInput, &LandSettings),
@@ -27,8 +27,8 @@ pub(super) fn known_sightings(
     let mut look = |camera: &PredictedCamera, t_ns: i64| -> Result<Option<Vec<KnownSighting>>, PipelineError> {
         progress.advance_to(input.frame_times_ns.partition_point(|time_ns| *time_ns <= t_ns));
         let Some(frame) = sequence.frames.iter().find(|f| f.t_ns == t_ns) else { return Ok(None) };
-        let Ok(picture) = sequence.load(frame) else { return Ok(None) };
-        let fix = matcher.sightings(&picture, &input.camera, camera)?;
+        let Ok(image) = sequence.load(frame) else { return Ok(None) };
+        let fix = matcher.sightings(&image, &input.camera, camera)?;
         count(&fix, summary);
         Ok(Some(fix.sightings.iter().map(|s| known_sighting(t_ns, s)).collect()))
     };

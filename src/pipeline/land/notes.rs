@@ -36,13 +36,13 @@ fn contradiction_notes(result: &LandingResult) -> Vec<String> {
     left_out.chain(doubted).collect()
 }
 
-/// Pictures in a row in which map and designated point have to contradict each other before it is said.
-const PICTURES: usize = 3;
+/// Images in a row in which map and designated point have to contradict each other before it is said.
+const IMAGES: usize = 3;
 
 /// When a map and the designated point contradict each other, if they do.
 pub(super) fn map_note(points: &[PointByMap]) -> Option<String> {
     let runs = || points.chunk_by(|a, b| a.contradicts == b.contradicts).filter(|run| run[0].contradicts);
-    let run = runs().find(|run| run.len() >= PICTURES)?;
+    let run = runs().find(|run| run.len() >= IMAGES)?;
     let contradicting = runs().map(<[_]>::len).sum::<usize>();
     let seen = points.iter().filter(|p| p.normalized_squared.is_finite());
     let clearest = seen.max_by(|a, b| a.normalized_squared.total_cmp(&b.normalized_squared)).unwrap_or(&run[0]);

@@ -1,4 +1,4 @@
-//! A descent: pictures and IMU in, the lander's state out.
+//! A descent: images and IMU in, the lander's state out.
 
 use super::map_sightings::known_sightings;
 use super::notes::{land_notes, map_note};
@@ -10,13 +10,13 @@ use crate::navigation::landing::{
     write_covariance_csv, write_estimate_csv,
 };
 use crate::pipeline::error::PipelineError;
-use crate::pipeline::front_end_files::{write_front_end, write_pictures};
+use crate::pipeline::front_end_files::{write_front_end, write_images};
 use crate::pipeline::progress::Progress;
 use crate::pipeline::settings::{LandSettings, write_settings};
 use crate::pipeline::summary::Summary;
 use crate::pipeline::track::run_front_end;
 use crate::settings::Settings;
-use crate::vision::{FrontEnd, FrontEndConfig, TrackInputs, drift_a_picture_px};
+use crate::vision::{FrontEnd, FrontEndConfig, TrackInputs, drift_per_image_px};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -31,7 +31,7 @@ pub struct LandRequest {
     pub settings: LandSettings,
 }
 
-/// Tracks the pictures, runs the landing filter and writes the result.
+/// Tracks the images, runs the landing filter and writes the result.
 ///
 /// # Errors
 /// A setting out of range, missing or malformed inputs, or a file that cannot be written.
@@ -98,7 +98,7 @@ pub fn land(request: &LandRequest, progress: &dyn Progress) -> Result<Summary, P
     Ok(summary)
 }
 
-/// 1σ of a rotation that the gyroscope predicts between two pictures, rad: its noise over seconds, and a margin for the
+/// 1σ of a rotation that the gyroscope predicts between two images, rad: its noise over seconds, and a margin for the
 /// camera's mounting. Tight enough to tell the right one of two rotations that explain a plane equally well.
 const GYRO_SIGMA_RAD: f64 = 1e-3;
 
@@ -109,13 +109,13 @@ fn with_gyro_prior(front_end: &FrontEndConfig) -> FrontEndConfig {
 }
 
 /// The filter's options with what the front end says of the designated point: 1σ of the pixel that names it, and of the
-/// drift of its track in each picture.
+/// drift of its track in each image.
 fn with_designated_errors(config: &LandingConfig, front_end: &FrontEnd) -> LandingConfig {
     let steps = &front_end.designated;
     let Some(first) = steps.first() else { return config.clone() };
     LandingConfig {
         designated_sigma_px: first.step_sigma_px,
-        designated_drift_px: drift_a_picture_px(steps),
+        designated_drift_px: drift_per_image_px(steps),
         ..config.clone()
     }
 }
@@ -126,7 +126,7 @@ fn write_result(
     (front_end, result): (&FrontEnd, &LandingResult),
 ) -> Result<(), PipelineError> {
     write_front_end(out, front_end)?;
-    write_pictures(out, sequence, front_end)?;
+    write_images(out, sequence, front_end)?;
     write_estimate_csv(&out.join("estimate.csv"), result)?;
     write_covariance_csv(&out.join("covariance.csv"), result)?;
     let pose = |e: &LandingEpoch| StampedPose { t_ns: e.t_ns, reference_from_moving: e.site_from_lander };

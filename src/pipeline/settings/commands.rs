@@ -1,4 +1,4 @@
-//! One type of settings a command that reads pictures.
+//! One type of settings a command that reads images.
 
 use super::InputSettings;
 use crate::navigation::landing::LandingConfig;
@@ -14,7 +14,7 @@ use toml::Table;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TrackSettings {
-    /// Which pictures are taken, and what is known of them.
+    /// Which images are taken, and what is known of them.
     pub input: InputSettings,
     /// Features, matching, tracks and rotations.
     pub front_end: FrontEndConfig,
@@ -73,7 +73,7 @@ impl Settings for LandSettings {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TumbleSettings {
-    /// Which pictures are taken, and what is known of them.
+    /// Which images are taken, and what is known of them.
     pub input: InputSettings,
     /// The estimator of the motion.
     pub tumbling: TumblingConfig,
@@ -99,7 +99,7 @@ impl Settings for TumbleSettings {
     }
 }
 
-/// Settings of `opnav demo`: those of its stages, which take their pictures as they come.
+/// Settings of `opnav demo`: those of its stages, which take their images as they come.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DemoSettings {

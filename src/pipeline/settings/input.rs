@@ -1,4 +1,4 @@
-//! Which pictures are taken, and what is known of them.
+//! Which images are taken, and what is known of them.
 
 use crate::dataset::{CameraSource, FrameTimes};
 use crate::settings::{OutOfRange, limits};
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// Which pictures of a folder are taken, and what is known of them besides what the folder says. Paths are relative to the
+/// Which images of a folder are taken, and what is known of them besides what the folder says. Paths are relative to the
 /// folder in which the command runs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -19,18 +19,18 @@ pub struct InputSettings {
     /// camera file says).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fov_deg: Option<f64>,
-    /// List of `timestamp [ns],filename` for pictures whose names are no time stamps (default: the folder's own).
+    /// List of `timestamp [ns],filename` for images whose names are no time stamps (default: the folder's own).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub times: Option<PathBuf>,
-    /// Pictures a second, in the order of their names, above 0 (default: by their time stamps).
+    /// Images a second, in the order of their names, above 0 (default: by their time stamps).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rate_hz: Option<f64>,
-    /// Every n-th picture is taken, 1 or more (default 1).
+    /// Every n-th image is taken, 1 or more (default 1).
     pub every: usize,
-    /// The first picture and the one after the last, counted from 0 (default: all).
+    /// The first image and the one after the last, counted from 0 (default: all).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frames: Option<[usize; 2]>,
-    /// Grey picture of 8 bits and the camera's size, 0 where not to look (default: none).
+    /// Grey image of 8 bits and the camera's size, 0 where not to look (default: none).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mask: Option<PathBuf>,
 }
@@ -60,7 +60,7 @@ impl InputSettings {
         }
     }
 
-    /// The pictures to take; all if `None`.
+    /// The images to take; all if `None`.
     pub fn frame_range(&self) -> Option<Range<usize>> {
         self.frames.map(|[from, to]| from..to)
     }

@@ -4,7 +4,7 @@ use super::frame::frame_files;
 use super::record::FrameRecord;
 use super::request::FrameKey;
 use crate::dataset::{Checksums, EarlierWork, read_depth_tiff, sha256_hex};
-use crate::scene::{DepthPicture, Scene, TruthConfig, observe_landmarks};
+use crate::scene::{DepthImage, Scene, TruthConfig, observe_landmarks};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -41,6 +41,6 @@ fn checked_frame(
         checksums.insert(name.clone(), noted.clone());
     }
     let depth = read_depth_tiff(&root.join(&files[0])).ok()?;
-    let picture = DepthPicture { width_px: depth.width(), depth_m: depth.as_raw() };
-    Some(FrameRecord { checksums, observations: observe_landmarks(scene.landmarks(), camera, view, &picture) })
+    let image = DepthImage { width_px: depth.width(), depth_m: depth.as_raw() };
+    Some(FrameRecord { checksums, observations: observe_landmarks(scene.landmarks(), camera, view, &image) })
 }

@@ -1,4 +1,4 @@
-//! Drawing the missing pictures, camera by camera.
+//! Drawing the missing images, camera by camera.
 
 use super::folder::DatasetFolder;
 use super::frame::finish_frame;
@@ -13,7 +13,7 @@ use crate::scene::{RenderConfig, Scenario, Scene};
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-/// Threads that finish pictures, at most: more would only hold more memory.
+/// Threads that finish images, at most: more would only hold more memory.
 const MOST_THREADS: usize = 8;
 
 /// Draws the missing frames and adds what is known of them to `finished`.
@@ -91,7 +91,7 @@ pub fn world(scene: &Scene) -> World<'_> {
     }
 }
 
-/// Pictures without anything to see in them. They are kept, for they may be meant, but never passed over in silence.
+/// Images without anything to see in them. They are kept, for they may be meant, but never passed over in silence.
 #[derive(Default)]
 struct BlankFrames {
     without_surface: Vec<FrameKey>,

@@ -1,16 +1,16 @@
-//! Optical flow from each picture to the next, from the depths on disk.
+//! Optical flow from each image to the next, from the depths on disk.
 
 use super::folder::DatasetFolder;
 use crate::dataset::truth::{TruthRaster, encode_flow};
 use crate::dataset::{Checksums, DatasetError, EarlierWork, read_depth_tiff, sha256_hex};
 use crate::pipeline::error::PipelineError;
 use crate::pipeline::progress::Progress;
-use crate::scene::{DepthPicture, Scene, SceneCamera, optical_flow};
+use crate::scene::{DepthImage, Scene, SceneCamera, optical_flow};
 use rayon::prelude::*;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Writes the flow of every picture whose next one in the schedule is in the data set too.
+/// Writes the flow of every image whose next one in the schedule is in the data set too.
 pub(super) fn write_flows(
     scene: &Scene,
     frames: &[usize],
@@ -49,11 +49,11 @@ fn flow(root: &Path, camera: &SceneCamera, first: usize) -> Result<crate::datase
     let [depth, next_depth] =
         [view, next].map(|v| read_depth_tiff(&root.join(TruthRaster::Depth.file(&camera.id, v.t_ns))));
     let (depth, next_depth) = (depth?, next_depth?);
-    let picture = |p: &'_ image::ImageBuffer<image::Luma<f32>, Vec<f32>>| p.width();
-    let (width_px, next_width_px) = (picture(&depth), picture(&next_depth));
+    let image = |p: &'_ image::ImageBuffer<image::Luma<f32>, Vec<f32>>| p.width();
+    let (width_px, next_width_px) = (image(&depth), image(&next_depth));
     Ok(optical_flow(
         &camera.sensor.camera,
-        (view, &DepthPicture { width_px, depth_m: depth.as_raw() }),
-        (next, &DepthPicture { width_px: next_width_px, depth_m: next_depth.as_raw() }),
+        (view, &DepthImage { width_px, depth_m: depth.as_raw() }),
+        (next, &DepthImage { width_px: next_width_px, depth_m: next_depth.as_raw() }),
     ))
 }

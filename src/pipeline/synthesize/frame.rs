@@ -1,4 +1,4 @@
-//! One picture after it was drawn: through the detector, packed, hashed, written, noted.
+//! One image after it was drawn: through the detector, packed, hashed, written, noted.
 
 use super::folder::DatasetFolder;
 use super::record::{DrawnFrame, FrameRecord};
@@ -6,41 +6,41 @@ use crate::dataset::truth::{Landmark, TruthRaster};
 use crate::dataset::{DatasetError, encode_grey_png, encode_scalar_tiff, encode_vector_tiff};
 use crate::pipeline::error::PipelineError;
 use crate::render::RenderedFrame;
-use crate::scene::{DepthPicture, SceneCamera, TruthConfig, observe_landmarks};
+use crate::scene::{DepthImage, SceneCamera, TruthConfig, observe_landmarks};
 use image::{DynamicImage, GrayImage};
 use std::path::Path;
 
-/// The truth that a picture comes with; depth is the first.
+/// The truth that an image comes with; depth is the first.
 pub(super) fn truth_kinds(wanted: &TruthConfig) -> Vec<TruthRaster> {
     let on_request = [(wanted.normals, TruthRaster::Normals), (wanted.albedo, TruthRaster::Albedo)];
     let on_request = on_request.into_iter().filter_map(|(wanted, kind)| wanted.then_some(kind));
     [TruthRaster::Depth, TruthRaster::Mask].into_iter().chain(on_request).collect()
 }
 
-/// Names of a picture's files: depth, the other truth, and last the picture itself.
+/// Names of an image's files: depth, the other truth, and last the image itself.
 pub(super) fn frame_files(camera: &SceneCamera, t_ns: i64, wanted: &TruthConfig) -> Vec<String> {
     let truth = truth_kinds(wanted).into_iter().map(|kind| kind.file(&camera.id, t_ns));
-    truth.chain([camera.id.picture(t_ns)]).collect()
+    truth.chain([camera.id.image(t_ns)]).collect()
 }
 
-/// Exposes, packs and writes a picture with its truth.
+/// Exposes, packs and writes an image with its truth.
 pub(super) fn finish_frame(
     frame: DrawnFrame,
     folder: &DatasetFolder,
     (landmarks, wanted): (&[Landmark], &TruthConfig),
 ) -> Result<FrameRecord, PipelineError> {
     let DrawnFrame { camera, detector, view, truth, .. } = frame;
-    let depth = DepthPicture { width_px: truth.width_px, depth_m: &truth.depth_m };
+    let depth = DepthImage { width_px: truth.width_px, depth_m: &truth.depth_m };
     let observations = observe_landmarks(landmarks, camera, &view, &depth);
-    let picture = detector.expose(&truth, view.t_ns).to_image().expect("a detector fills its picture");
+    let image = detector.expose(&truth, view.t_ns).to_image().expect("a detector fills its picture");
     let mut files = Vec::new();
     for kind in truth_kinds(wanted) {
         let name = kind.file(&camera.id, view.t_ns);
         let bytes = pack_truth(kind, &truth, name.as_ref())?;
         files.push((name, bytes));
     }
-    let name = camera.id.picture(view.t_ns);
-    let bytes = encode_grey_png(name.as_ref(), &picture)?;
+    let name = camera.id.image(view.t_ns);
+    let bytes = encode_grey_png(name.as_ref(), &image)?;
     files.push((name, bytes));
     Ok(FrameRecord { checksums: folder.write(&files)?, observations })
 }

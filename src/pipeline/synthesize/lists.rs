@@ -1,4 +1,4 @@
-//! The files of a data set that are not pictures.
+//! The files of a data set that are not images.
 
 use super::record::FrameRecord;
 use super::request::FrameKey;
@@ -15,7 +15,7 @@ use crate::scene::{AttachmentScene, DescentScene, Scene, SceneCamera};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Writes everything that is known before a picture is taken; `frames` are the pictures that the data set holds.
+/// Writes everything that is known before an image is taken; `frames` are the images that the data set holds.
 pub(super) fn write_lists(root: &Path, scene: &Scene, frames: &[usize]) -> Result<(), PipelineError> {
     scene.cameras().iter().try_for_each(|camera| write_camera(root, camera, frames))?;
     write_landmarks(root, scene.landmarks())?;

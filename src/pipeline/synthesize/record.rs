@@ -5,7 +5,7 @@ use crate::dataset::truth::LandmarkObservation;
 use crate::render::{Detector, RenderedFrame};
 use crate::scene::{SceneCamera, View};
 
-/// A picture that was drawn.
+/// An image that was drawn.
 pub(super) struct DrawnFrame<'a> {
     pub key: super::request::FrameKey,
     pub camera: &'a SceneCamera,
@@ -14,7 +14,7 @@ pub(super) struct DrawnFrame<'a> {
     pub truth: RenderedFrame,
 }
 
-/// What is known of a finished picture.
+/// What is known of a finished image.
 #[derive(Debug, Clone)]
 pub(super) struct FrameRecord {
     /// Its files.

@@ -8,9 +8,9 @@ use std::time::Duration;
 /// Where the time of drawing and writing went.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DrawTiming {
-    /// Pictures drawn.
+    /// Images drawn.
     pub drawn: usize,
-    /// From the first picture's beginning to the last one's file.
+    /// From the first image's beginning to the last one's file.
     pub wall: Duration,
     /// Time in the renderer.
     pub drawing: Duration,
@@ -46,5 +46,5 @@ pub struct Synthesized {
     pub timing: DrawTiming,
 }
 
-/// A picture of a data set: its camera's place in [`Scene::cameras`] and its own place in the camera's views.
+/// An image of a data set: its camera's place in [`Scene::cameras`] and its own place in the camera's views.
 pub(super) type FrameKey = (usize, usize);

@@ -31,7 +31,7 @@ pub fn synthesize(request: &SynthesizeRequest, progress: &dyn Progress) -> Resul
     let earlier = DatasetFolder::prepare(request, &scenario, gpu.adapter_name())?;
     let root = request.out.as_path();
     let mut finished = check_earlier_frames(root, &scene, (&earlier, &scenario.truth));
-    let is_there = |index: &usize| range.contains(index) || any_picture(root, &scene, *index);
+    let is_there = |index: &usize| range.contains(index) || any_image(root, &scene, *index);
     let frames: Vec<usize> = (0..available).filter(is_there).collect();
     let folder = DatasetFolder::begin(root, gpu.adapter_name(), &finished)?;
     write_lists(root, &scene, &frames)?;
@@ -48,9 +48,9 @@ pub fn synthesize(request: &SynthesizeRequest, progress: &dyn Progress) -> Resul
     Ok(Synthesized { frames: frames.len(), cameras: cameras.len(), timing })
 }
 
-/// Whether an earlier job took any camera's picture of this index.
-fn any_picture(root: &Path, scene: &Scene, index: usize) -> bool {
-    scene.cameras().iter().any(|camera| root.join(camera.id.picture(camera.views[index].t_ns)).exists())
+/// Whether an earlier job took any camera's image of this index.
+fn any_image(root: &Path, scene: &Scene, index: usize) -> bool {
+    scene.cameras().iter().any(|camera| root.join(camera.id.image(camera.views[index].t_ns)).exists())
 }
 
 /// The frames to draw, camera by camera.

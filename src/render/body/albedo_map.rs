@@ -2,7 +2,7 @@
 
 use crate::render::error::RenderError;
 use crate::render::gpu::{AlbedoMap, Gpu};
-use crate::scene::{AlbedoImage, Mesh, MeshAlbedo, PictureEdge};
+use crate::scene::{AlbedoImage, ImageEdge, Mesh, MeshAlbedo};
 use nalgebra::Vector3;
 use std::collections::HashMap;
 use wgpu::util::DeviceExt;
@@ -32,7 +32,7 @@ impl AlbedoBuffers {
             MeshAlbedo::Globe(map) => (GLOBE, Some(&map.image), map.origin_m, map.west_edge_rad),
         };
         let levels = image.map_or_else(|| vec![Level { size: [1, 1], values: vec![1.0] }], pyramid);
-        let repeats = image.is_some_and(|image| image.vertical_edge() == PictureEdge::Repeat);
+        let repeats = image.is_some_and(|image| image.vertical_edge() == ImageEdge::Repeat);
         let data = AlbedoMap {
             origin: crate::render::gpu::four(&origin_m, west_edge_rad),
             counts: [kind, u32::from(repeats), levels.len() as u32, 0],
@@ -86,13 +86,13 @@ impl PaintedVertices {
     }
 }
 
-/// One level of a pyramid of pictures.
+/// One level of a pyramid of images.
 struct Level {
     size: [u32; 2],
     values: Vec<f32>,
 }
 
-/// The picture, and halves of it down to one pixel.
+/// The image, and halves of it down to one pixel.
 fn pyramid(image: &AlbedoImage) -> Vec<Level> {
     let mut levels = vec![Level { size: image.size_px(), values: image.values().to_vec() }];
     while levels[levels.len() - 1].size != [1, 1] {

@@ -28,7 +28,7 @@ impl BodyGeometry {
         let (center_m, radius_m) = mesh.bounding_sphere();
         let albedo = AlbedoBuffers::new(gpu, &mesh.albedo)?;
         let pipelines = pipelines(gpu, albedo.is_some());
-        let uniforms = [Role::Picture, Role::Shadow].map(|role| uniform(gpu, &pipelines, (role, albedo.as_ref())));
+        let uniforms = [Role::PageImage, Role::Shadow].map(|role| uniform(gpu, &pipelines, (role, albedo.as_ref())));
         let upload = |contents: &[u8], usage| {
             gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some("mesh"), contents, usage })
         };
@@ -97,7 +97,7 @@ fn pipelines(gpu: &Gpu, is_painted: bool) -> GeometryPipelines {
     };
     let buffers = [Some(layout)];
     let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
-    let bindings = [uniform_entry(0, vertex), uniform_entry(1, vertex | fragment), picture_entry(2)];
+    let bindings = [uniform_entry(0, vertex), uniform_entry(1, vertex | fragment), image_entry(2)];
     let culled = [Some(wgpu::Face::Back), None];
     let (source, entries, bindings) = if is_painted {
         (albedo_map::SOURCE, ["painted_vertex", "painted_fragment"], &bindings[..])
@@ -108,7 +108,7 @@ fn pipelines(gpu: &Gpu, is_painted: bool) -> GeometryPipelines {
     GeometryPipelines::new(gpu, &kind)
 }
 
-fn picture_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+fn image_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     let ty = wgpu::BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Float { filterable: false },
         view_dimension: wgpu::TextureViewDimension::D2,

@@ -74,7 +74,7 @@ impl Gpu {
 }
 
 /// Has the C library keep memory that is freed: a software adapter asks for some tens of megabytes and frees them several
-/// times a picture, and a sixth of a picture's time went into clearing fresh pages. glibc keeps twice the largest block
+/// times an image, and a sixth of an image's time went into clearing fresh pages. glibc keeps twice the largest block
 /// that was freed, of up to 32 MiB (mallopt(3), `M_MMAP_THRESHOLD`); elsewhere this does nothing.
 fn keep_freed_memory() {
     drop(std::hint::black_box(Vec::<u8>::with_capacity(31 << 20)));

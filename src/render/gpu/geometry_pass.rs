@@ -1,4 +1,4 @@
-//! Pipelines that draw geometry: into surface samples for a picture, or into the shadow map.
+//! Pipelines that draw geometry: into surface samples for an image, or into the shadow map.
 
 use super::device::Gpu;
 
@@ -7,30 +7,30 @@ pub(super) const SAMPLE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba3
 /// Format of depth buffers.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// Which picture is being drawn.
+/// Which image is being drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    Picture,
+    PageImage,
     Shadow,
 }
 
 /// The two pipelines of one kind of geometry.
 #[derive(Debug)]
 pub struct GeometryPipelines {
-    picture: wgpu::RenderPipeline,
+    image: wgpu::RenderPipeline,
     shadow: wgpu::RenderPipeline,
 }
 
 /// What differs between kinds of geometry.
 pub struct GeometryKind<'a> {
     pub source: &'a str,
-    /// Entry points of the picture's vertex and fragment stage.
+    /// Entry points of the image's vertex and fragment stage.
     pub entries: [&'a str; 2],
     /// Entry point of the shadow map's vertex stage.
     pub shadow_entry: &'a str,
     pub buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
     pub bindings: &'a [wgpu::BindGroupLayoutEntry],
-    /// Sides of triangles that pictures, and that shadow maps leave out.
+    /// Sides of triangles that images, and that shadow maps leave out.
     pub culled: [Option<wgpu::Face>; 2],
 }
 
@@ -51,12 +51,12 @@ impl GeometryPipelines {
             immediate_size: 0,
         });
         let build = |role| pipeline(device, &module, &layout, kind, role);
-        GeometryPipelines { picture: build(Role::Picture), shadow: build(Role::Shadow) }
+        GeometryPipelines { image: build(Role::PageImage), shadow: build(Role::Shadow) }
     }
 
     pub fn of(&self, role: Role) -> &wgpu::RenderPipeline {
         match role {
-            Role::Picture => &self.picture,
+            Role::PageImage => &self.image,
             Role::Shadow => &self.shadow,
         }
     }
@@ -71,7 +71,7 @@ fn pipeline(
 ) -> wgpu::RenderPipeline {
     let targets = [Some(wgpu::ColorTargetState::from(SAMPLE_FORMAT))];
     let (entry, depth_compare) = match role {
-        Role::Picture => (kind.entries[0], wgpu::CompareFunction::Greater),
+        Role::PageImage => (kind.entries[0], wgpu::CompareFunction::Greater),
         Role::Shadow => (kind.shadow_entry, wgpu::CompareFunction::Less),
     };
     let cull_mode = kind.culled[role as usize];
@@ -93,7 +93,7 @@ fn pipeline(
             bias: wgpu::DepthBiasState::default(),
         }),
         multisample: wgpu::MultisampleState::default(),
-        fragment: (role == Role::Picture).then(|| wgpu::FragmentState {
+        fragment: (role == Role::PageImage).then(|| wgpu::FragmentState {
             module,
             entry_point: Some(kind.entries[1]),
             compilation_options: wgpu::PipelineCompilationOptions::default(),

@@ -1,4 +1,4 @@
-//! Textures that a picture passes through.
+//! Textures that an image passes through.
 
 use super::device::Gpu;
 use super::geometry_pass::{DEPTH_FORMAT, SAMPLE_FORMAT};

@@ -1,11 +1,11 @@
-//! Where the time of a picture goes.
+//! Where the time of an image goes.
 
 use super::device::Gpu;
 use crate::render::error::RenderError;
 use cpu_time::ProcessTime;
 use std::time::Instant;
 
-/// Time that one stage of a picture took.
+/// Time that one stage of an image took.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct StageTime {
     /// What was done.

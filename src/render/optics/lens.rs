@@ -1,7 +1,7 @@
-//! From a camera, lens included, to the pinhole picture that is drawn.
+//! From a camera, lens included, to the pinhole image that is drawn.
 //!
 //! The adapter draws straight lines straight. A lens with distortion looks up, for each of its samples, the place in a
-//! pinhole picture that is at least as fine everywhere.
+//! pinhole image that is at least as fine everywhere.
 
 use super::sample_grid::SampleGrid;
 use crate::geometry::{Camera, Distortion};
@@ -12,7 +12,7 @@ use nalgebra::{Matrix2, Point3, Vector2, Vector3, Vector4};
 use rayon::prelude::*;
 use wgpu::util::DeviceExt;
 
-/// Widest angle off the axis, as its tangent, that a pinhole picture can hold: 80°.
+/// Widest angle off the axis, as its tangent, that a pinhole image can hold: 80°.
 const WIDEST_TANGENT: f64 = 5.67;
 /// Samples beside the lens's field, for interpolation.
 const MARGIN: f64 = 2.0;
@@ -24,13 +24,13 @@ const PROBES: u32 = 33;
 pub struct Lens {
     /// Pinhole camera that is drawn.
     pub raster: Camera,
-    /// Samples of the pinhole picture.
+    /// Samples of the pinhole image.
     pub raster_grid: SampleGrid,
-    /// Samples of the camera's own picture.
+    /// Samples of the camera's own image.
     pub grid: SampleGrid,
     /// Focal length in px at the place of the largest magnification.
     pub finest_focal_px: f64,
-    /// For each of the camera's samples its place in the pinhole picture, in samples; a single zero without distortion.
+    /// For each of the camera's samples its place in the pinhole image, in samples; a single zero without distortion.
     pub map: wgpu::TextureView,
 }
 
@@ -39,7 +39,7 @@ impl Lens {
         let limit_px = gpu.device.limits().max_texture_dimension_2d;
         let grid = SampleGrid { stride: supersampling, size_px: (camera.width_px, camera.height_px) };
         let fits = |grid: &SampleGrid| grid.size().is_some_and(|(width, height)| width.max(height) <= limit_px);
-        let too_large = RenderError::PictureTooLarge {
+        let too_large = RenderError::ImageTooLarge {
             width_px: camera.width_px,
             height_px: camera.height_px,
             supersampling,
@@ -74,8 +74,8 @@ impl Lens {
         self.raster_grid != self.grid
     }
 
-    /// The rectangle [left, top, width, height] in px of the camera's picture that holds all the points (reference frame,
-    /// m) and what lies between them; the whole picture where the lens bends it or a point lies behind the camera.
+    /// The rectangle [left, top, width, height] in px of the camera's image that holds all the points (reference frame,
+    /// m) and what lies between them; the whole image where the lens bends it or a point lies behind the camera.
     pub fn rectangle_px(&self, view: &View, points_m: &[Vector3<f64>]) -> [u32; 4] {
         let (width, height) = self.grid.size_px;
         let whole = [0, 0, width, height];
@@ -94,7 +94,7 @@ impl Lens {
         [left, top, right - left, bottom - top].map(|side| side as u32)
     }
 
-    /// Focal lengths and principal point in samples of the pinhole picture.
+    /// Focal lengths and principal point in samples of the pinhole image.
     pub fn raster_intrinsics(&self) -> Vector4<f64> {
         let stride = f64::from(self.raster_grid.stride);
         let shift = if self.raster_grid.is_shared() { 0.0 } else { 0.5 };
@@ -103,7 +103,7 @@ impl Lens {
     }
 }
 
-/// Largest derivative of the pixel by ideal coordinates over the picture, px.
+/// Largest derivative of the pixel by ideal coordinates over the image, px.
 fn largest_focal_px(camera: &Camera) -> Result<f64, RenderError> {
     let share = |k: u32, size_px: u32| f64::from(k) / f64::from(PROBES - 1) * f64::from(size_px) - 0.5;
     let mut largest: f64 = 0.0;

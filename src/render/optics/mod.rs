@@ -6,5 +6,5 @@ mod projection;
 mod sample_grid;
 
 pub use lens::Lens;
-pub use motion_blur::SubPictures;
+pub use motion_blur::SubImages;
 pub use projection::{corner_rays_in_camera, side_planes_in_camera};

@@ -18,7 +18,7 @@ pub fn side_planes_in_camera(camera: &Camera) -> [Vector3<f64>; 4] {
     ]
 }
 
-/// Rays of depth 1 through the corners of the picture, in camera axes.
+/// Rays of depth 1 through the corners of the image, in camera axes.
 pub fn corner_rays_in_camera(camera: &Camera) -> [Vector3<f64>; 4] {
     let size_px = Vector2::new(f64::from(camera.width_px), f64::from(camera.height_px));
     [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|share| {

@@ -1,16 +1,16 @@
-//! Where the samples of a picture lie.
+//! Where the samples of an image lie.
 
 use crate::geometry::Camera;
 use nalgebra::{Matrix4, Vector2};
 
-/// A grid of samples, `stride` a pixel and axis, one of which lies at every pixel's centre: what the picture shows there
+/// A grid of samples, `stride` a pixel and axis, one of which lies at every pixel's centre: what the image shows there
 /// is the truth. A pixel is the mean of its square by the midpoint rule (odd strides) or by the trapezoidal rule, whose
 /// outer samples are shared with the pixels beside it (even strides).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SampleGrid {
     /// Samples a pixel and axis.
     pub stride: u32,
-    /// Picture width and height in px.
+    /// PageImage width and height in px.
     pub size_px: (u32, u32),
 }
 

@@ -6,7 +6,7 @@ use super::point_spread::PointSpread;
 use super::read_out::ReadOut;
 use super::shot_noise::shot;
 use super::vignetting::Vignetting;
-use crate::dataset::GreyPicture;
+use crate::dataset::GreyRaster;
 use crate::geometry::Camera;
 use crate::render::frame::RenderedFrame;
 use crate::scene::SensorConfig;
@@ -41,11 +41,11 @@ impl Detector {
         }
     }
 
-    /// The picture as the detector delivers it. The same frame, detector and time give the same numbers.
+    /// The image as the detector delivers it. The same frame, detector and time give the same numbers.
     ///
     /// # Panics
     /// If the frame is not of the camera's size.
-    pub fn expose(&self, frame: &RenderedFrame, t_ns: i64) -> GreyPicture {
+    pub fn expose(&self, frame: &RenderedFrame, t_ns: i64) -> GreyRaster {
         let width = frame.width_px as usize;
         let irradiance = self.vignetting.applied(&frame.radiance);
         let gain = electrons_per_irradiance(&irradiance, &frame.mask, &self.config);
@@ -56,7 +56,7 @@ impl Detector {
             let light_electrons: Vec<f32> = light.iter().map(|irradiance| irradiance * gain).collect();
             self.read_row(row * width, &light_electrons, numbers, &mut sub_stream(&stream, row as u64));
         });
-        GreyPicture { width_px: frame.width_px, height_px: frame.height_px, bits: self.config.bits, numbers }
+        GreyRaster { width_px: frame.width_px, height_px: frame.height_px, bits: self.config.bits, numbers }
     }
 
     /// Numbers of one row whose first pixel has the index `first`, from the electrons that light is expected to free.

@@ -1,4 +1,4 @@
-//! Fixed pattern: what differs from pixel to pixel and stays from picture to picture.
+//! Fixed pattern: what differs from pixel to pixel and stays from image to image.
 
 use crate::scene::SensorConfig;
 use rand::{Rng, RngExt};

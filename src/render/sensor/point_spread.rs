@@ -1,7 +1,7 @@
 //! Point spread of the optics: a Gaussian and the disc of defocus.
 //!
-//! Both kernels sum to 1, so the light of a point that they keep inside the picture is all kept. Beyond the edge the
-//! scene is unknown: the picture's outermost pixels are repeated there, which keeps an even field even.
+//! Both kernels sum to 1, so the light of a point that they keep inside the image is all kept. Beyond the edge the
+//! scene is unknown: the image's outermost pixels are repeated there, which keeps an even field even.
 
 use rayon::prelude::*;
 
@@ -24,15 +24,15 @@ impl PointSpread {
         PointSpread { gaussian: gaussian_kernel(sigma_px), disc: disc_kernel(defocus_radius_px) }
     }
 
-    /// The picture spread by both kernels; rows of `width` values.
-    pub(super) fn applied(&self, mut picture: Vec<f32>, width: usize) -> Vec<f32> {
+    /// The image spread by both kernels; rows of `width` values.
+    pub(super) fn applied(&self, mut image: Vec<f32>, width: usize) -> Vec<f32> {
         if self.disc.len() > 1 {
-            picture = convolved(&picture, width, |row| disc_row(&picture, width, row, &self.disc));
+            image = convolved(&image, width, |row| disc_row(&image, width, row, &self.disc));
         }
         if self.gaussian.len() > 1 {
-            picture = convolved(&picture, width, |row| gaussian_row(&picture, width, row, &self.gaussian));
+            image = convolved(&image, width, |row| gaussian_row(&image, width, row, &self.gaussian));
         }
-        picture
+        image
     }
 }
 
@@ -77,19 +77,19 @@ fn normalised(weights: &[f64]) -> Vec<f32> {
     weights.iter().map(|weight| (weight / sum) as f32).collect()
 }
 
-/// A picture of the rows that a function makes, in parallel.
-fn convolved(picture: &[f32], width: usize, row: impl Fn(usize) -> Vec<f32> + Sync) -> Vec<f32> {
-    let mut out = vec![0.0; picture.len()];
+/// An image of the rows that a function makes, in parallel.
+fn convolved(image: &[f32], width: usize, row: impl Fn(usize) -> Vec<f32> + Sync) -> Vec<f32> {
+    let mut out = vec![0.0; image.len()];
     out.par_chunks_mut(width).enumerate().for_each(|(index, values)| values.copy_from_slice(&row(index)));
     out
 }
 
 /// One row spread along both axes: down the columns, then along the row.
-fn gaussian_row(picture: &[f32], width: usize, row: usize, kernel: &[f32]) -> Vec<f32> {
+fn gaussian_row(image: &[f32], width: usize, row: usize, kernel: &[f32]) -> Vec<f32> {
     let reach = kernel.len() / 2;
     let mut mixed = vec![0.0; width];
     for (weight, offset) in kernel.iter().zip(-(reach as isize)..) {
-        add_scaled(&mut mixed, *weight, picture_row(picture, width, row, offset));
+        add_scaled(&mut mixed, *weight, image_row(image, width, row, offset));
     }
     let mixed = padded(&mixed, reach);
     let mut out = vec![0.0; width];
@@ -100,11 +100,11 @@ fn gaussian_row(picture: &[f32], width: usize, row: usize, kernel: &[f32]) -> Ve
 }
 
 /// One row spread by a square kernel.
-fn disc_row(picture: &[f32], width: usize, row: usize, kernel: &[Vec<f32>]) -> Vec<f32> {
+fn disc_row(image: &[f32], width: usize, row: usize, kernel: &[Vec<f32>]) -> Vec<f32> {
     let reach = kernel.len() / 2;
     let mut out = vec![0.0; width];
     for (weights, offset) in kernel.iter().zip(-(reach as isize)..) {
-        let source = padded(picture_row(picture, width, row, offset), reach);
+        let source = padded(image_row(image, width, row, offset), reach);
         for (shift, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
             add_scaled(&mut out, *weight, &source[shift..shift + width]);
         }
@@ -113,10 +113,10 @@ fn disc_row(picture: &[f32], width: usize, row: usize, kernel: &[Vec<f32>]) -> V
 }
 
 /// The row at an offset, the outermost row beyond the edge.
-fn picture_row(picture: &[f32], width: usize, row: usize, offset: isize) -> &[f32] {
-    let rows = picture.len() / width;
+fn image_row(image: &[f32], width: usize, row: usize, offset: isize) -> &[f32] {
+    let rows = image.len() / width;
     let row = row.saturating_add_signed(offset).min(rows - 1);
-    &picture[row * width..(row + 1) * width]
+    &image[row * width..(row + 1) * width]
 }
 
 /// A row with its outermost values repeated on either side.

@@ -31,7 +31,7 @@ impl Vignetting {
         Vignetting { factors: (0..pixels).into_par_iter().map(factor).collect() }
     }
 
-    /// Irradiance of a picture of radiance, in the same unit (I/F).
+    /// Irradiance of an image of radiance, in the same unit (I/F).
     pub(super) fn applied(&self, radiance: &[f32]) -> Vec<f32> {
         if self.factors.is_empty() {
             return radiance.to_vec();

@@ -71,7 +71,7 @@ impl ShadingPass {
         }
     }
 
-    /// Waits for the adapter and fetches the picture.
+    /// Waits for the adapter and fetches the image.
     pub fn fetch(&self, gpu: &Gpu) -> Result<RenderedFrame, RenderError> {
         self.outputs.iter().for_each(|(_, read_back)| read_back.request());
         gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| gpu.error("finish the picture", e))?;

@@ -1,4 +1,4 @@
-//! Variants of the shader that shades (`shaders/shading.wgsl`), each made when a picture first needs it.
+//! Variants of the shader that shades (`shaders/shading.wgsl`), each made when an image first needs it.
 
 use super::job::{ShadingJob, ShadingKind};
 use crate::render::gpu::Gpu;
@@ -63,7 +63,7 @@ impl ShadingPipelines {
         }
     }
 
-    /// The variant for a picture.
+    /// The variant for an image.
     pub(super) fn of(&self, gpu: &Gpu, job: &ShadingJob) -> &wgpu::RenderPipeline {
         let is_wide = job.widest_penumbra_texels > NARROW_TEXELS;
         let one_by_one = if self.is_terrain && job.octave_count <= MOST_ONE_BY_ONE { job.octave_count } else { 0 };

@@ -1,4 +1,4 @@
-//! The shadow map: an orthographic picture of the surface from the Sun, fitted to what the camera sees.
+//! The shadow map: an orthographic image of the surface from the Sun, fitted to what the camera sees.
 
 use crate::render::gpu::{DEPTH_FORMAT, Gpu};
 use nalgebra::{Matrix3, Matrix4, Rotation3, Unit, Vector3};

@@ -1,4 +1,4 @@
-//! Which octaves of the ground's detail a picture adds to what vertices carry.
+//! Which octaves of the ground's detail an image adds to what vertices carry.
 
 use super::level_of_detail::LevelRange;
 use crate::geometry::Camera;
@@ -9,10 +9,10 @@ use nalgebra::Vector3;
 /// Margin for rounding on the adapter.
 const MARGIN: f64 = 0.02;
 
-/// Wavelengths of the octaves that any pixel of a picture may show and vertices do not carry there.
+/// Wavelengths of the octaves that any pixel of an image may show and vertices do not carry there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShadedWavelengths {
-    /// Vertices carry octaves of this wavelength in m and more everywhere in the picture.
+    /// Vertices carry octaves of this wavelength in m and more everywhere in the image.
     pub carried_m: f64,
     /// No pixel is smaller on the ground, in m.
     pub finest_m: f64,
@@ -27,7 +27,7 @@ impl ShadedWavelengths {
         focal_px: f64,
     ) -> Self {
         let eye_m = view.reference_from_camera.translation.vector;
-        // Of depth 1: what a ray falls, and how far it leads away, are largest in a corner of the picture.
+        // Of depth 1: what a ray falls, and how far it leads away, are largest in a corner of the image.
         let rays = corner_rays_in_camera(pinhole).map(|ray| view.reference_from_camera.rotation * ray);
         let steepest = rays.iter().map(|ray| -ray.z).fold(0.0, f64::max);
         let nearest_m = (eye_m.z - highest_m).max(0.0) / steepest.max(1e-9);

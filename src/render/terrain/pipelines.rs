@@ -2,7 +2,7 @@
 
 use crate::render::gpu::{GeometryKind, GeometryPipelines, Gpu, Role, Tile, buffer, storage_entry, uniform_entry};
 
-/// The picture shows both sides: slivers of vertices that have nearly slid onto each other face either way by rounding, and
+/// The image shows both sides: slivers of vertices that have nearly slid onto each other face either way by rounding, and
 /// none may be missing. The shadow map leaves out the ground that faces the Sun (its right and up and the direction of light
 /// are right-handed, so that it shows triangles mirrored): light that something keeps from ground has entered what keeps it
 /// away by a side that faces away from the Sun, and without the other side lit ground cannot shadow itself (after Wang and
@@ -25,7 +25,7 @@ struct Part {
 }
 
 impl Drawn {
-    /// Entry points of the vertex stages of picture and shadow map.
+    /// Entry points of the vertex stages of image and shadow map.
     pub(super) fn new(gpu: &Gpu, [vertex, shadow_entry]: [&str; 2]) -> Self {
         let kind = GeometryKind {
             source: include_str!("../../../shaders/terrain_geometry.wgsl"),
@@ -81,7 +81,7 @@ fn bind(
     uniforms: &[wgpu::Buffer; 2],
     storage: [&wgpu::Buffer; 2],
 ) -> [wgpu::BindGroup; 2] {
-    [Role::Picture, Role::Shadow].map(|role| {
+    [Role::PageImage, Role::Shadow].map(|role| {
         let buffers = [&uniforms[role as usize], storage[0], storage[1]];
         let entries: Vec<_> = (0..)
             .zip(buffers)

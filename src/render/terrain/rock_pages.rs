@@ -25,11 +25,11 @@ pub(super) struct PagedRocks {
 /// All pages, in buffers of equal size.
 #[derive(Debug, Default)]
 pub(super) struct RockPages {
-    books: Vec<Book>,
+    books: Vec<RockBuffers>,
 }
 
 #[derive(Debug)]
-struct Book {
+struct RockBuffers {
     buffer: wgpu::Buffer,
     free: Vec<u32>,
 }
@@ -64,10 +64,10 @@ impl RockPages {
         let book = self.books.iter().position(|book| book.free.len() >= needed).unwrap_or_else(|| {
             let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
             let buffer = buffer(gpu, PAGE_BYTES * BOOK as u64, usage);
-            self.books.push(Book { buffer, free: (0..BOOK as u32).rev().collect() });
+            self.books.push(RockBuffers { buffer, free: (0..BOOK as u32).rev().collect() });
             self.books.len() - 1
         });
-        let Book { buffer, free } = &mut self.books[book];
+        let RockBuffers { buffer, free } = &mut self.books[book];
         let pages = free.split_off(free.len() - needed);
         for (page, vertices) in pages.iter().zip(rocks.vertices.chunks(PAGE)) {
             gpu.queue.write_buffer(buffer, PAGE_BYTES * u64::from(*page), bytemuck::cast_slice(vertices));

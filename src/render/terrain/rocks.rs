@@ -102,7 +102,8 @@ impl TileRocks {
         sinks: bool,
     ) {
         let mesh = RockMesh::new(rock, spacing_m);
-        let below = [Ground::new(rock, spacing_m, &patches[0]), Ground::new(rock, 2.0 * spacing_m, &patches[1])];
+        let below =
+            [RockFooting::new(rock, spacing_m, &patches[0]), RockFooting::new(rock, 2.0 * spacing_m, &patches[1])];
         let first = self.vertices.len();
         for at_m in mesh.places_m(rock) {
             let local_m = at_m - corner_m;
@@ -122,7 +123,7 @@ impl TileRocks {
 }
 
 /// The ground below one rock.
-enum Ground<'a> {
+enum RockFooting<'a> {
     Sampled(&'a TerrainPatch<'a>),
     /// Between the corners of a square with a corner and the inverse of its edge.
     Bilinear {
@@ -132,24 +133,24 @@ enum Ground<'a> {
     },
 }
 
-impl<'a> Ground<'a> {
+impl<'a> RockFooting<'a> {
     fn new(rock: &Rock, spacing_m: f64, patch: &'a TerrainPatch<'a>) -> Self {
         let reach_m = rock.reach_m();
         if reach_m > BILINEAR_SPACINGS * spacing_m {
-            return Ground::Sampled(patch);
+            return RockFooting::Sampled(patch);
         }
         let low_m = rock.center_m().add_scalar(-reach_m);
         let corner = |k: usize| {
             let at = low_m + Vector2::new((k & 1) as f64, (k >> 1) as f64) * (2.0 * reach_m);
             tile_vertex(&patch.sample(at.x, at.y))
         };
-        Ground::Bilinear { low_m, edge_1_m: 0.5 / reach_m, corners: std::array::from_fn(corner) }
+        RockFooting::Bilinear { low_m, edge_1_m: 0.5 / reach_m, corners: std::array::from_fn(corner) }
     }
 
     fn at(&self, at_m: &Vector2<f64>) -> TileVertex {
         match self {
-            Ground::Sampled(patch) => tile_vertex(&patch.sample(at_m.x, at_m.y)),
-            Ground::Bilinear { low_m, edge_1_m, corners: [a, b, c, d] } => {
+            RockFooting::Sampled(patch) => tile_vertex(&patch.sample(at_m.x, at_m.y)),
+            RockFooting::Bilinear { low_m, edge_1_m, corners: [a, b, c, d] } => {
                 let part = ((at_m - low_m) * *edge_1_m).map(|p| p as f32);
                 let along = |from: f32, to: f32, share: f32| from + (to - from) * share;
                 let between = |k: usize| along(along(a[k], b[k], part.x), along(c[k], d[k], part.x), part.y);

@@ -1,4 +1,4 @@
-//! Which ground a view needs: inside the picture, inside the shadow map, and what stands toward the Sun.
+//! Which ground a view needs: inside the image, inside the shadow map, and what stands toward the Sun.
 
 use super::level_of_detail::ViewVolume;
 use crate::geometry::Camera;
@@ -10,11 +10,11 @@ use rayon::prelude::*;
 
 /// Beyond this many heights of the camera there are no cast shadows.
 const FARTHEST_HEIGHTS: f64 = 12.0;
-/// Rays along either side of the picture that look for the ground, less one.
+/// Rays along either side of the image that look for the ground, less one.
 const RAYS: u32 = 16;
 /// Places on each ray: from the plane below the camera toward the ground that the ray meets.
 const STEPS: u32 = 3;
-/// Strips along the light in which ground that throws shadows into the picture is looked for.
+/// Strips along the light in which ground that throws shadows into the image is looked for.
 const STRIPS: usize = 16;
 /// Steps along a strip grow by this share.
 const STRIDE: f64 = 0.1;
@@ -22,9 +22,9 @@ const STRIDE: f64 = 0.1;
 /// What the camera sees of the ground, and what throws shadows into it.
 #[derive(Debug, Clone, Copy)]
 pub struct SeenGround {
-    /// Box around the ground in the picture, deep enough for what throws shadows.
+    /// Box around the ground in the image, deep enough for what throws shadows.
     pub covered: ShadowBox,
-    /// How far from the picture ground throws shadows into it, along the light, m.
+    /// How far from the image ground throws shadows into it, along the light, m.
     reach_m: f64,
 }
 
@@ -72,7 +72,7 @@ fn coarse(smallest_m: f64) -> GroundDetail {
     }
 }
 
-/// Places on the ground in the picture, relative to the camera, m.
+/// Places on the ground in the image, relative to the camera, m.
 fn places_seen(terrain: &Terrain, (camera, view): (&Camera, &View), height_m: f64) -> Vec<Vector3<f64>> {
     let eye_m = view.reference_from_camera.translation.vector;
     let detail = coarse(height_m / f64::from(2 * RAYS));

@@ -23,7 +23,7 @@ const FIRST_ROCK_INDICES: usize = 1 << 16;
 pub struct DrawnTiles {
     /// Heights in m of the lowest and the highest vertex.
     pub height_range_m: [f64; 2],
-    /// The same of what the picture may show.
+    /// The same of what the image may show.
     pub seen_range_m: [f64; 2],
 }
 
@@ -36,7 +36,7 @@ pub struct TerrainGeometry {
     rocks: Drawn,
     /// Of one tile, and of all rocks.
     indices: [wgpu::Buffer; 2],
-    /// Tiles that the picture and the shadow map show: the first ones.
+    /// Tiles that the image and the shadow map show: the first ones.
     tile_counts: [u32; 2],
     /// The same for indices of rocks, in each buffer of rocks.
     rock_ranges: Vec<[Range<u32>; 2]>,

@@ -1,7 +1,7 @@
 //! The section of one result, built from its metrics.
 
 use super::figures::{figure_table, figures_with, timing_table};
-use super::page::{Block, Picture, Section};
+use super::page::{Block, PageImage, Section};
 use crate::evaluation::{Metrics, Mission, Series};
 use crate::report::error::ReportError;
 use crate::report::numbers::format_number;
@@ -16,7 +16,7 @@ pub struct MissionReport<'a> {
     /// What was done, in a few sentences.
     pub done: String,
     /// Sample frames with features drawn in.
-    pub pictures: Vec<Picture>,
+    pub images: Vec<PageImage>,
     /// Errors, consistency, verdicts.
     pub metrics: &'a Metrics,
     /// The result's `summary.json`, for its timing; [`Value::Null`] if there is none.
@@ -33,8 +33,8 @@ pub fn mission_section(report: &MissionReport<'_>) -> Result<Section, ReportErro
     if !metrics.verdicts.is_empty() {
         blocks.push(Block::Verdicts(metrics.verdicts.clone()));
     }
-    if !report.pictures.is_empty() {
-        blocks.push(Block::Gallery(report.pictures.clone()));
+    if !report.images.is_empty() {
+        blocks.push(Block::Gallery(report.images.clone()));
     }
     match metrics.mission {
         Mission::Landing => add_landing(metrics, &mut blocks)?,
@@ -66,7 +66,7 @@ fn add_landing(metrics: &Metrics, blocks: &mut Vec<Block>) -> Result<(), ReportE
     add_consistency(metrics, blocks)
 }
 
-/// Errors at the end and at the last picture, each against the site's origin and against the tracked ground point.
+/// Errors at the end and at the last image, each against the site's origin and against the tracked ground point.
 fn landing_table(metrics: &Metrics) -> Block {
     let columns = [
         ("at the last picture", "last_picture_"),

@@ -23,9 +23,9 @@ pub struct Section {
     pub blocks: Vec<Block>,
 }
 
-/// A picture as PNG bytes.
+/// An image as PNG bytes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Picture {
+pub struct PageImage {
     /// What it shows; also the text for those who cannot see it.
     pub caption: String,
     /// The PNG file's bytes.
@@ -52,10 +52,10 @@ pub enum Block {
         /// The rows, as long as the header.
         rows: Vec<Vec<String>>,
     },
-    /// A picture over the full width.
-    Picture(Picture),
-    /// Pictures side by side.
-    Gallery(Vec<Picture>),
+    /// An image over the full width.
+    PageImage(PageImage),
+    /// Images side by side.
+    Gallery(Vec<PageImage>),
     /// A plot.
     Plot(Plot),
 }

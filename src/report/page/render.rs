@@ -1,6 +1,6 @@
 //! The page as HTML.
 
-use super::page::{Block, Page, Picture};
+use super::page::{Block, Page, PageImage};
 use crate::dataset::write_text;
 use crate::evaluation::Verdict;
 use crate::report::error::ReportError;
@@ -69,8 +69,8 @@ fn block_markup(block: &Block) -> Markup {
         Block::Notes(notes) => html! { ul class="notes" { @for note in notes { li { (note) } } } },
         Block::Verdicts(verdicts) => html! { ul class="verdicts" { @for v in verdicts { (verdict_markup(v)) } } },
         Block::Table { caption, header, rows } => table_markup(caption, header, rows),
-        Block::Picture(picture) => picture_markup(picture),
-        Block::Gallery(pictures) => html! { div class="gallery" { @for p in pictures { (picture_markup(p)) } } },
+        Block::PageImage(image) => image_markup(image),
+        Block::Gallery(images) => html! { div class="gallery" { @for p in images { (image_markup(p)) } } },
         Block::Plot(plot) => plot_markup(plot),
     }
 }
@@ -112,12 +112,12 @@ fn is_numeric(rows: &[Vec<String>], column: usize) -> bool {
     cells.peek().is_some() && cells.all(|cell| cell.starts_with(|c: char| c.is_ascii_digit() || c == '−' || c == '–'))
 }
 
-fn picture_markup(picture: &Picture) -> Markup {
-    let data = base64::engine::general_purpose::STANDARD.encode(&picture.png);
+fn image_markup(image: &PageImage) -> Markup {
+    let data = base64::engine::general_purpose::STANDARD.encode(&image.png);
     html! {
         figure class="picture" {
-            img alt=(picture.caption) src={ "data:image/png;base64," (data) };
-            figcaption { (picture.caption) }
+            img alt=(image.caption) src={ "data:image/png;base64," (data) };
+            figcaption { (image.caption) }
         }
     }
 }

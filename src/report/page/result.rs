@@ -1,7 +1,7 @@
 //! The section of a result folder.
 
 use super::mission::{MissionReport, mission_section};
-use super::page::{Picture, Section};
+use super::page::{PageImage, Section};
 use crate::evaluation::{Metrics, Mission, Summary};
 use crate::report::error::ReportError;
 use std::path::Path;
@@ -10,7 +10,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// Names the file that is missing or malformed.
-pub fn result_section(result_folder: &Path, pictures: Vec<Picture>) -> Result<Section, ReportError> {
+pub fn result_section(result_folder: &Path, images: Vec<PageImage>) -> Result<Section, ReportError> {
     let summary = Summary::read(result_folder)?;
     let metrics = Metrics::read(result_folder)?;
     let (heading, done) = match summary.mission {
@@ -34,5 +34,5 @@ pub fn result_section(result_folder: &Path, pictures: Vec<Picture>) -> Result<Se
     };
     let object = &summary.object;
     let done = done.to_string();
-    mission_section(&MissionReport { heading: heading.into(), done, pictures, metrics: &metrics, summary: object })
+    mission_section(&MissionReport { heading: heading.into(), done, images, metrics: &metrics, summary: object })
 }

@@ -1,7 +1,7 @@
 //! The pages: every key of a scenario, and every setting of the commands.
 
 use super::schema::{Source, Spot};
-use super::section::Book;
+use super::section::KeyChapters;
 use serde_json::Value;
 
 const SCENARIO: &str = "\
@@ -40,14 +40,14 @@ pub struct CommandSettings {
 /// The reference in Markdown; `schema` is a JSON schema of the scenario file: definitions under `$defs`,
 /// descriptions from the types' documentation.
 pub fn scenario_reference(schema: &Value) -> String {
-    let mut book = Book::default();
+    let mut book = KeyChapters::default();
     Source { command: None, definitions: &schema["$defs"] }.visit(&mut book, Spot::top(schema, None));
     book.markdown(SCENARIO)
 }
 
 /// The reference of the commands' settings in Markdown. A type that several commands have stands there once.
 pub fn settings_reference(commands: &[CommandSettings]) -> String {
-    let mut book = Book::default();
+    let mut book = KeyChapters::default();
     for CommandSettings { command, schema, defaults } in commands {
         let source = Source { command: Some(command), definitions: &schema["$defs"] };
         source.visit(&mut book, Spot::top(schema, Some(defaults)));

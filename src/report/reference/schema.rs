@@ -1,6 +1,6 @@
 //! Walk through the JSON schema of a settings type: every table once, with the places where it stands.
 
-use super::section::{Book, Row, Section};
+use super::section::{KeyChapters, Row, Section};
 use super::text::{agreed_default, default_text, kind_text, meaning_text, range_text, single_spaced};
 use serde_json::Value;
 
@@ -50,7 +50,7 @@ impl<'a> Spot<'a> {
 
 impl<'a> Source<'a> {
     /// Notes the table at a spot and every table below it; what another command is made of stands with that command.
-    pub(super) fn visit(&self, book: &mut Book, spot: Spot<'a>) {
+    pub(super) fn visit(&self, book: &mut KeyChapters, spot: Spot<'a>) {
         let (type_name, table) = self.target(spot.node);
         let entries = self.entries(table);
         let heading = spot.heading(self.command, table["properties"].is_object());

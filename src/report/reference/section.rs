@@ -23,11 +23,11 @@ pub(super) struct Row {
 
 /// Sections made so far.
 #[derive(Default)]
-pub(super) struct Book {
+pub(super) struct KeyChapters {
     pub(super) sections: Vec<Section>,
 }
 
-impl Book {
+impl KeyChapters {
     pub(super) fn markdown(&self, preface: &str) -> String {
         let sections: Vec<String> = self.sections.iter().map(Section::markdown).collect();
         format!("{preface}\n{}", sections.join("\n"))

@@ -20,7 +20,7 @@ use std::path::Path;
 pub struct AttachmentScene {
     /// The ground in the site frame.
     pub terrain: Terrain,
-    /// The cameras with their views in the site frame, node by node; all take their pictures at the same times.
+    /// The cameras with their views in the site frame, node by node; all take their images at the same times.
     pub cameras: Vec<SceneCamera>,
     /// The spacecraft.
     pub nodes: Vec<AttachmentNode>,
@@ -105,7 +105,7 @@ impl AttachmentScene {
         cameras
     }
 
-    /// What a camera sees at any time, between pictures too.
+    /// What a camera sees at any time, between images too.
     pub fn view_at(&self, camera: &SceneCamera, t_ns: i64) -> View {
         let node = camera.id.node.unwrap_or(0) as usize;
         self.view(&self.nodes[node].motion, &camera.sensor, t_ns)

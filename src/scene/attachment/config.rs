@@ -18,7 +18,7 @@ pub struct AttachmentConfig {
     /// Places of the spacecraft in the formation, in site axes from its centre, m; one to 1000 (default: three at the
     /// corners of an equilateral triangle with sides of 1.299 m).
     pub nodes_m: Vec<[f64; 3]>,
-    /// Time between pictures in s, 0.001 to 1e6 (default 30), all nodes at once, the first at t = 0; a multiple of the
+    /// Time between images in s, 0.001 to 1e6 (default 30), all nodes at once, the first at t = 0; a multiple of the
     /// inertial measurement units' interval.
     pub picture_interval_s: f64,
     /// Number of landmarks on the ground for the ground truth, 0 to 100000 (default 200), the site's origin included.
@@ -57,7 +57,7 @@ impl Default for AttachmentConfig {
 }
 
 impl AttachmentConfig {
-    /// Times of the pictures in ns.
+    /// Times of the images in ns.
     pub fn times_ns(&self) -> Vec<i64> {
         let interval_ns = (self.picture_interval_s * 1e9).round() as i64;
         let end_ns = (self.approach.duration_s * 1e9).round() as i64;

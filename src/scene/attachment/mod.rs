@@ -1,5 +1,5 @@
 //! Several flexibly linked spacecraft that descend together to a site on a small body: guidance of their centre, the
-//! motion of each against the others, gravity of a turning body, inertial measurements of each, and the pictures to take.
+//! motion of each against the others, gravity of a turning body, inertial measurements of each, and the images to take.
 //!
 //! The site frame turns with the body; its x axis points east, y north, z up. A node's camera looks along its -z axis,
 //! camera axes `C = diag(1, -1, -1)` of the node's.

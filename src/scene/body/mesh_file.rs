@@ -1,7 +1,7 @@
 //! A shape file as a scenario names it.
 
 use super::formats::ShapeFile;
-use super::mesh::{AlbedoImage, Mesh, MeshAlbedo, PictureEdge};
+use super::mesh::{AlbedoImage, ImageEdge, Mesh, MeshAlbedo};
 use crate::scene::error::SceneError;
 use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
@@ -30,7 +30,7 @@ pub struct MeshFile {
     /// Metres in one unit of the file, instead of `unit` (default none: then `unit` is required). It is taken at its word, whatever size of body it gives.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub metres_per_unit: Option<f64>,
-    /// Picture whose grey values are proportional to albedo (PNG, JPEG or TIFF), laid on by the texture coordinates of
+    /// PageImage whose grey values are proportional to albedo (PNG, JPEG or TIFF), laid on by the texture coordinates of
     /// an OBJ file (default none). A relative path starts at the folder of the scenario file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texture: Option<PathBuf>,
@@ -77,7 +77,7 @@ impl MeshFile {
                            file with vt, or surface.albedo_map";
             let corners =
                 texture_corners.ok_or_else(|| SceneError::Unusable { path: path.clone(), problem: problem.into() })?;
-            let image = AlbedoImage::read(&base_folder.join(texture), PictureEdge::Repeat)?;
+            let image = AlbedoImage::read(&base_folder.join(texture), ImageEdge::Repeat)?;
             mesh.albedo = MeshAlbedo::Texture { corners, image };
         }
         Ok(mesh)

@@ -11,9 +11,7 @@ mod procedural;
 mod source;
 mod surface;
 
-pub use mesh::{
-    AlbedoImage, AlbedoMapFile, GlobeMap, MassProperties, Mesh, MeshAlbedo, PictureEdge, principal_moments,
-};
+pub use mesh::{AlbedoImage, AlbedoMapFile, GlobeMap, ImageEdge, MassProperties, Mesh, MeshAlbedo, principal_moments};
 pub use mesh_file::{LengthUnit, MeshFile};
 pub use procedural::ProceduralBody;
 pub use source::BodySource;

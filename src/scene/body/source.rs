@@ -29,7 +29,7 @@ impl BodySource {
     /// The mesh with its centre of mass at the origin, and its mass properties there; the map is laid on, if there is one.
     ///
     /// # Errors
-    /// Names the shape file or the picture and what is wrong with it.
+    /// Names the shape file or the image and what is wrong with it.
     pub fn centered_mesh(
         &self,
         albedo_map: Option<&AlbedoMapFile>,

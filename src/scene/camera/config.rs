@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraConfig {
-    /// Picture width in px, 16 to 16384 (default 1024).
+    /// PageImage width in px, 16 to 16384 (default 1024).
     pub width_px: u32,
-    /// Picture height in px, 16 to 16384 (default 1024).
+    /// PageImage height in px, 16 to 16384 (default 1024).
     pub height_px: u32,
     /// Horizontal field of view in degrees of square pixels around a centred principal point, without distortion, 0.01
     /// to 170 (default 90 for a descent, 30 for a tumbling body and an attachment). It gives the focal length where
@@ -21,7 +21,7 @@ pub struct CameraConfig {
     /// Focal lengths along u and v in px, instead of `fov_deg`, 1 to 1e8 (default: from `fov_deg`).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub focal_px: Option<[f64; 2]>,
-    /// Principal point (u, v) in px, pixel centres at integers, -100000 to 100000 (default: the middle of the picture).
+    /// Principal point (u, v) in px, pixel centres at integers, -100000 to 100000 (default: the middle of the image).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center_px: Option<[f64; 2]>,
     /// Lens distortion (default none).
@@ -84,7 +84,7 @@ impl CameraConfig {
         }
     }
 
-    /// Checks every setting's range, and that every corner of the picture can be undistorted.
+    /// Checks every setting's range, and that every corner of the image can be undistorted.
     ///
     /// # Errors
     /// Names the first key outside its range.

@@ -1,4 +1,4 @@
-//! What takes a picture.
+//! What takes an image.
 
 use super::config::CameraConfig;
 use crate::dataset::{CameraId, CameraSensor};
@@ -65,7 +65,7 @@ impl Imager {
     }
 }
 
-/// A camera of a scene and the pictures that it takes.
+/// A camera of a scene and the images that it takes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneCamera {
     /// Its name in the data set.
@@ -74,6 +74,6 @@ pub struct SceneCamera {
     pub sensor: CameraSensor,
     /// Its detector.
     pub detector: SensorConfig,
-    /// One view a picture, times increasing.
+    /// One view an image, times increasing.
     pub views: Vec<View>,
 }

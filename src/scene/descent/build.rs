@@ -15,12 +15,12 @@ use crate::settings::OutOfRange;
 use nalgebra::{Isometry3, Point3, Unit, Vector3};
 use std::path::Path;
 
-/// A descent: the ground, the pictures to take, and what the lander measures and believes.
+/// A descent: the ground, the images to take, and what the lander measures and believes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DescentScene {
     /// The ground in the site frame.
     pub terrain: Terrain,
-    /// The cameras with their views in the site frame; all take their pictures at the same times.
+    /// The cameras with their views in the site frame; all take their images at the same times.
     pub cameras: Vec<SceneCamera>,
     /// How the lander moves.
     pub motion: DescentMotion,
@@ -34,16 +34,16 @@ pub struct DescentScene {
     pub imu: Vec<ImuSample>,
     /// The inertial measurement unit's data sheet.
     pub imu_noise: ImuNoise,
-    /// What the lander believes at the first picture.
+    /// What the lander believes at the first image.
     pub initial: InitialState,
-    /// Measured pixel of the site's origin in the first camera's first picture.
+    /// Measured pixel of the site's origin in the first camera's first image.
     pub designated: DesignatedPoint,
     /// Points on the ground, in the site frame; the first is the site's origin.
     pub landmarks: Vec<Landmark>,
 }
 
 impl DescentScene {
-    /// What a camera sees at any time of the descent, between pictures too.
+    /// What a camera sees at any time of the descent, between images too.
     pub fn view_at(&self, camera: &SceneCamera, t_ns: i64) -> View {
         view(&self.motion, &camera.sensor, &(self.sun_in_site, self.sun_angular_radius_rad), t_ns)
     }
@@ -52,7 +52,7 @@ impl DescentScene {
     ///
     /// # Errors
     /// Names the key at fault if no schedule fits, if a camera would be in the ground, or if the first one does not see
-    /// the site in its first picture.
+    /// the site in its first image.
     pub fn new(
         config: &DescentConfig,
         imagers: &[Imager],

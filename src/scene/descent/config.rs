@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 pub struct DescentConfig {
     /// Number of landmarks on the ground for the ground truth, 0 to 100000 (default 200), the site's origin included.
     pub landmarks: usize,
-    /// When pictures are taken (default: once a second).
+    /// When images are taken (default: once a second).
     pub schedule: FrameSchedule,
     /// The path.
     pub guidance: GuidanceConfig,
@@ -26,7 +26,7 @@ pub struct DescentConfig {
     pub camera_mount: CameraMountConfig,
     /// The inertial measurement unit.
     pub imu: ImuConfig,
-    /// Errors of what the lander believes at the first picture.
+    /// Errors of what the lander believes at the first image.
     pub initial_error: InitialErrorConfig,
     /// Direction to the Sun.
     pub sun: SunConfig,
@@ -35,7 +35,7 @@ pub struct DescentConfig {
     /// A measured elevation model as the base of the ground (default none: the ground is procedural alone).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elevation: Option<Box<ElevationConfig>>,
-    /// A measured picture of the ground's albedo (default none).
+    /// A measured image of the ground's albedo (default none).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub orthoimage: Option<Box<OrthoimageConfig>>,
 }

@@ -17,7 +17,7 @@ pub(super) fn ground(config: &DescentConfig, seed: u64, base_folder: &Path) -> R
     })
 }
 
-/// Beyond the border of an elevation model the ground is only its continuation: no picture is taken above that.
+/// Beyond the border of an elevation model the ground is only its continuation: no image is taken above that.
 pub(super) fn check_above_model(views: &[View], terrain: &Terrain) -> Result<(), OutOfRange> {
     let Some(elevation) = terrain.base().and_then(|base| base.elevation.as_ref()) else { return Ok(()) };
     let place_m = |view: &View| view.reference_from_camera.translation.vector;

@@ -1,4 +1,4 @@
-//! What the lander believes at the first picture.
+//! What the lander believes at the first image.
 
 use crate::dataset::truth::LanderState;
 use crate::dataset::{DesignatedPoint, InitialState};

@@ -10,7 +10,7 @@ const NEAREST_M: f64 = 2.0;
 const TURN_RAD: f64 = 2.399_963_229_728_653;
 
 /// `count` points of the ground: the site itself, then points on a spiral whose radius grows by a constant ratio up to
-/// `farthest_m`, so that every height has some of them in its picture.
+/// `farthest_m`, so that every height has some of them in its image.
 pub fn landmarks_around_site(terrain: &Terrain, count: usize, farthest_m: f64) -> Vec<Landmark> {
     let ratio = (farthest_m / NEAREST_M).max(1.0);
     let position_m = |index: usize| {

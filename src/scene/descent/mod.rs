@@ -1,4 +1,4 @@
-//! A powered descent to a landing site: guidance, attitude, inertial measurements, when pictures are taken, and what the
+//! A powered descent to a landing site: guidance, attitude, inertial measurements, when images are taken, and what the
 //! lander believes at the start.
 
 mod build;

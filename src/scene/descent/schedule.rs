@@ -1,4 +1,4 @@
-//! When pictures are taken on a descent.
+//! When images are taken on a descent.
 
 use super::guidance::PolynomialGuidance;
 use crate::scene::error::SceneError;
@@ -6,31 +6,31 @@ use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Times of the pictures. The last one is taken no lower than `end_height_m` above the site.
+/// Times of the images. The last one is taken no lower than `end_height_m` above the site.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum FrameSchedule {
     /// At a constant rate.
     Uniform {
-        /// Pictures a second, 0.0001 to 10000 (default 1).
+        /// Images a second, 0.0001 to 10000 (default 1).
         #[serde(default = "one")]
         rate_hz: f64,
-        /// Time of the first picture in s (default 0).
+        /// Time of the first image in s (default 0).
         #[serde(default)]
         start_s: f64,
-        /// No picture after this time in s (default 10000: until the end height).
+        /// No image after this time in s (default 10000: until the end height).
         #[serde(default = "long")]
         end_s: f64,
-        /// Height above the site below which no picture is taken, in m, from 0.1 (default 15).
+        /// Height above the site below which no image is taken, in m, from 0.1 (default 15).
         #[serde(default = "fifteen")]
         end_height_m: f64,
     },
-    /// The height above the site shrinks by the same ratio from each picture to the next.
+    /// The height above the site shrinks by the same ratio from each image to the next.
     ConstantScale {
-        /// Number of pictures (default 60), the first at t = 0.
+        /// Number of images (default 60), the first at t = 0.
         #[serde(default = "sixty")]
         count: usize,
-        /// Height above the site of the last picture in m, from 0.1 (default 15).
+        /// Height above the site of the last image in m, from 0.1 (default 15).
         #[serde(default = "fifteen")]
         end_height_m: f64,
     },
@@ -56,10 +56,10 @@ impl Default for FrameSchedule {
 }
 
 impl FrameSchedule {
-    /// Times of the pictures in ns, each rounded to a multiple of `grid_ns` (the inertial measurement unit's interval).
+    /// Times of the images in ns, each rounded to a multiple of `grid_ns` (the inertial measurement unit's interval).
     ///
     /// # Errors
-    /// Names the key at fault if the pictures lie closer than the grid, or there is none.
+    /// Names the key at fault if the images lie closer than the grid, or there is none.
     pub fn times_ns(&self, path: &PolynomialGuidance, grid_ns: i64) -> Result<Vec<i64>, SceneError> {
         let on_grid = |t_s: f64| (t_s * 1e9 / grid_ns as f64).round() as i64 * grid_ns;
         let (times_ns, key, value): (Vec<i64>, _, _) = match *self {
@@ -90,7 +90,7 @@ impl FrameSchedule {
         Ok(times_ns)
     }
 
-    /// Nominal pictures a second, if constant.
+    /// Nominal images a second, if constant.
     pub fn rate_hz(&self) -> Option<f64> {
         match self {
             FrameSchedule::Uniform { rate_hz, .. } => Some(*rate_hz),

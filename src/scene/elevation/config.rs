@@ -22,19 +22,19 @@ pub struct ElevationConfig {
     pub site: MapSite,
 }
 
-/// A picture of the ground from above as its albedo: the table `[descent.orthoimage]`.
+/// An image of the ground from above as its albedo: the table `[descent.orthoimage]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OrthoimageConfig {
     /// What the values mean (default `relative`).
     #[serde(default)]
     pub values: AlbedoValues,
-    /// Whether procedural changes of albedo are added below the picture's resolution (default true).
+    /// Whether procedural changes of albedo are added below the image's resolution (default true).
     #[serde(default = "yes")]
     pub detail: bool,
     /// The file.
     pub file: RasterFile,
-    /// Where on the picture's map the site's origin lies (default: where it lies on the elevation model's map; the middle
+    /// Where on the image's map the site's origin lies (default: where it lies on the elevation model's map; the middle
     /// without one).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub site: Option<MapSite>,
@@ -44,7 +44,7 @@ pub struct OrthoimageConfig {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AlbedoValues {
-    /// Brightness: the terrain's mean albedo times the value over the picture's mean. The picture's own shading by the
+    /// Brightness: the terrain's mean albedo times the value over the image's mean. The image's own shading by the
     /// Sun stays in it.
     #[default]
     Relative,

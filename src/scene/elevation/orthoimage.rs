@@ -9,10 +9,10 @@ use super::site_map::SiteMap;
 use crate::scene::error::SceneError;
 use nalgebra::Vector3;
 
-/// Pixels beyond the border within which the picture fades to the terrain's mean albedo.
+/// Pixels beyond the border within which the image fades to the terrain's mean albedo.
 const FADE_PX: f64 = 16.0;
 
-/// Albedo between the pixels of a picture of the ground from above.
+/// Albedo between the pixels of an image of the ground from above.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Orthoimage {
     map: SiteMap,

@@ -1,13 +1,13 @@
-//! What a picture's depths say of points in space: seen, or hidden by something nearer.
+//! What an image's depths say of points in space: seen, or hidden by something nearer.
 
 use crate::dataset::truth::{Landmark, LandmarkObservation};
 use crate::scene::camera::SceneCamera;
 use crate::scene::view::View;
 use nalgebra::Vector2;
 
-/// z-depths of a picture in m at pixel centres, rows from the top, NaN where nothing is hit.
+/// z-depths of an image in m at pixel centres, rows from the top, NaN where nothing is hit.
 #[derive(Debug, Clone, Copy)]
-pub struct DepthPicture<'a> {
+pub struct DepthImage<'a> {
     /// Width in px.
     pub width_px: u32,
     /// The depths.
@@ -15,11 +15,11 @@ pub struct DepthPicture<'a> {
 }
 
 /// Relative agreement of depths under which a landmark counts as not hidden. Landmarks lie on the exact surface, the
-/// picture shows a mesh.
+/// image shows a mesh.
 const LANDMARK_TOLERANCE: f64 = 0.01;
 
-impl DepthPicture<'_> {
-    /// Depth at the pixel nearest to a place; NaN outside the picture.
+impl DepthImage<'_> {
+    /// Depth at the pixel nearest to a place; NaN outside the image.
     pub fn nearest_m(&self, pixel_px: &Vector2<f64>) -> f64 {
         self.at(pixel_px.x.round() as i64, pixel_px.y.round() as i64)
     }
@@ -31,7 +31,7 @@ impl DepthPicture<'_> {
         index.and_then(|index| self.depth_m.get(index)).map_or(f64::NAN, |depth| f64::from(*depth))
     }
 
-    /// Whether a point that falls on a pixel at this depth lies on what the picture shows: between the nearest and the
+    /// Whether a point that falls on a pixel at this depth lies on what the image shows: between the nearest and the
     /// farthest of the four pixels around it, give or take the relative tolerance.
     pub fn shows(&self, pixel_px: &Vector2<f64>, depth_m: f64, tolerance: f64) -> bool {
         let (u, v) = (pixel_px.x.floor() as i64, pixel_px.y.floor() as i64);
@@ -43,12 +43,12 @@ impl DepthPicture<'_> {
     }
 }
 
-/// Projects landmarks into a picture; those within it are listed, visible where the drawn depth agrees.
+/// Projects landmarks into an image; those within it are listed, visible where the drawn depth agrees.
 pub fn observe_landmarks(
     landmarks: &[Landmark],
     camera: &SceneCamera,
     view: &View,
-    depth: &DepthPicture,
+    depth: &DepthImage,
 ) -> Vec<LandmarkObservation> {
     let lens = &camera.sensor.camera;
     let observe = |landmark: &Landmark| {

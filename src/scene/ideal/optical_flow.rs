@@ -1,21 +1,21 @@
 //! Optical flow of a static surface, from depth and poses.
 
-use super::depth_image::DepthPicture;
+use super::depth_image::DepthImage;
 use crate::dataset::truth::OpticalFlow;
 use crate::geometry::Camera;
 use crate::scene::view::View;
 use nalgebra::{Point3, Vector2};
 
-/// Relative agreement of depths under which a point counts as seen in the next picture.
+/// Relative agreement of depths under which a point counts as seen in the next image.
 const TOLERANCE: f64 = 1e-3;
 
-/// Motion of every pixel's surface point from one picture of a camera to its next one: the pixel's centre is taken into
+/// Motion of every pixel's surface point from one image of a camera to its next one: the pixel's centre is taken into
 /// space by its depth and lens, in f64, and projected by the next view. NaN where there is no surface, or where the point
-/// leaves the picture or is hidden in the next one.
+/// leaves the image or is hidden in the next one.
 pub fn optical_flow(
     camera: &Camera,
-    (view, depth): (&View, &DepthPicture),
-    (next, next_depth): (&View, &DepthPicture),
+    (view, depth): (&View, &DepthImage),
+    (next, next_depth): (&View, &DepthImage),
 ) -> OpticalFlow {
     let next_from_this = next.reference_from_camera.inv_mul(&view.reference_from_camera);
     let motion = |(index, depth_m): (usize, &f32)| -> Option<Vector2<f32>> {

@@ -1,6 +1,6 @@
 //! Band-limited gradient noise on a hashed integer lattice, the building block of terrain and surface detail.
 //!
-//! The shader `shaders/noise.wgsl` computes the same function from the same integers, so that a picture's texture is
+//! The shader `shaders/noise.wgsl` computes the same function from the same integers, so that an image's texture is
 //! known exactly on the CPU. Hash: pcg2d and pcg3d of Jarzynski and Olano, "Hash Functions for GPU Rendering", Journal
 //! of Computer Graphics Techniques 9(3), 2020. Interpolation: Perlin, "Improving Noise", SIGGRAPH 2002.
 

@@ -144,7 +144,7 @@ impl NoiseOctave {
         sample
     }
 
-    /// How much of an octave a picture shows: 0 for lattice cells below one pixel footprint (waves of about two), 1 above
+    /// How much of an octave an image shows: 0 for lattice cells below one pixel footprint (waves of about two), 1 above
     /// two and a half, smooth between, so that nothing pops into view.
     pub fn visibility(wavelength_m: f64, footprint_m: f64) -> f64 {
         let t = ((wavelength_m / footprint_m - 1.0) / 1.5).clamp(0.0, 1.0);

@@ -19,7 +19,7 @@ pub struct HapkeParameters {
     pub opposition_amplitude: f64,
     /// Angular half-width h of the opposition surge, 0.001 to 1 (default 0.05).
     pub opposition_width: f64,
-    /// Mean slope angle θ̄ of the roughness below the resolution of the picture in degrees, 0 to 45 (default 20).
+    /// Mean slope angle θ̄ of the roughness below the resolution of the image in degrees, 0 to 45 (default 20).
     pub roughness_deg: f64,
 }
 

@@ -37,10 +37,10 @@ pub(super) struct ScenarioFile {
     /// The detector of every camera that has none of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     sensor: Option<SensorConfig>,
-    /// The truth to write beside the pictures.
+    /// The truth to write beside the images.
     #[serde(default)]
     truth: TruthConfig,
-    /// How finely the pictures are drawn.
+    /// How finely the images are drawn.
     #[serde(default)]
     render: RenderConfig,
     /// The squares of a map of the landing area (default: see its table).

@@ -32,7 +32,7 @@ pub enum Scene {
 }
 
 impl Scene {
-    /// The cameras, at least one, and the pictures that they take.
+    /// The cameras, at least one, and the images that they take.
     pub fn cameras(&self) -> &[SceneCamera] {
         match self {
             Scene::Descent(scene) => &scene.cameras,
@@ -59,7 +59,7 @@ impl Scene {
         }
     }
 
-    /// What one of the scene's cameras sees at any time, between its pictures too.
+    /// What one of the scene's cameras sees at any time, between its images too.
     pub fn view_at(&self, camera: &SceneCamera, t_ns: i64) -> View {
         match self {
             Scene::Descent(scene) => scene.view_at(camera, t_ns),

@@ -1,10 +1,10 @@
-//! How finely pictures are drawn.
+//! How finely images are drawn.
 
 use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How finely pictures are drawn: the table `[render]`.
+/// How finely images are drawn: the table `[render]`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RenderConfig {

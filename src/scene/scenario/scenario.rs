@@ -20,9 +20,9 @@ pub struct Scenario {
     pub seed: u64,
     /// The cameras of each spacecraft, at least one: the tables `[camera]` and `[sensor]`, or `[[cameras]]`.
     pub imagers: Vec<ImagerConfig>,
-    /// The truth to write beside the pictures: the table `[truth]`.
+    /// The truth to write beside the images: the table `[truth]`.
     pub truth: TruthConfig,
-    /// How finely the pictures are drawn: the table `[render]`.
+    /// How finely the images are drawn: the table `[render]`.
     pub render: RenderConfig,
     /// The squares that a map of the landing area shows: the table `[survey]`; `None` for the default ones.
     pub survey: Option<SurveyConfig>,

@@ -1,4 +1,4 @@
-//! Which truth a data set holds beside its pictures.
+//! Which truth a data set holds beside its images.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -11,6 +11,6 @@ pub struct TruthConfig {
     pub normals: bool,
     /// Albedo (default false).
     pub albedo: bool,
-    /// Optical flow from each picture to the same camera's next one (default false).
+    /// Optical flow from each image to the same camera's next one (default false).
     pub flow: bool,
 }

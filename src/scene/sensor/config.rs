@@ -1,4 +1,4 @@
-//! What the camera's detector does to a picture.
+//! What the camera's detector does to an image.
 
 use super::exposure::Exposure;
 use super::fixed_pattern::FixedPatternConfig;
@@ -20,8 +20,8 @@ pub struct SensorConfig {
     pub read_noise_electrons: f64,
     /// Mean dark current in electrons per second and pixel; it collects during the exposure time, 0 to 1e9 (default 0).
     pub dark_current_electrons_s: f64,
-    /// Bits a pixel, 1 to 16 (default 8). Digital numbers run from 0 to 2^bits - 1. Pictures of up to 8 bits are stored
-    /// in 8-bit files, others in 16-bit files, the numbers as they are: a picture of 12 bits ends at 4095.
+    /// Bits a pixel, 1 to 16 (default 8). Digital numbers run from 0 to 2^bits - 1. Images of up to 8 bits are stored
+    /// in 8-bit files, others in 16-bit files, the numbers as they are: an image of 12 bits ends at 4095.
     pub bits: u32,
     /// Gain in electrons per digital number, 1e-6 to 1e9 (default: a full well reads as the largest number).
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -32,7 +32,7 @@ pub struct SensorConfig {
     pub exposure: Exposure,
     /// When light is collected.
     pub shutter: ShutterConfig,
-    /// Fall of brightness toward the picture's edge.
+    /// Fall of brightness toward the image's edge.
     pub vignetting: VignettingConfig,
     /// Standard deviation of the Gaussian point-spread function in px, 0 to 10 (default 0.5).
     pub psf_sigma_px: f64,
@@ -70,7 +70,7 @@ impl SensorConfig {
         f64::from((1_u32 << self.bits.min(16)) - 1)
     }
 
-    /// Bits a pixel, unless the pictures' files say it themselves: those of 8 and of 16 bits do.
+    /// Bits a pixel, unless the images' files say it themselves: those of 8 and of 16 bits do.
     pub fn stored_bits(&self) -> Option<u32> {
         Some(self.bits).filter(|bits| !matches!(bits, 8 | 16))
     }

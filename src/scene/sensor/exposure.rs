@@ -8,22 +8,22 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum Exposure {
-    /// For each picture: the 99th percentile of the lit pixels' irradiance stands at 80 % of the full well.
+    /// For each image: the 99th percentile of the lit pixels' irradiance stands at 80 % of the full well.
     #[default]
     Auto,
-    /// For each picture: a percentile of the lit pixels' irradiance stands at a share of the full well.
+    /// For each image: a percentile of the lit pixels' irradiance stands at a share of the full well.
     Percentile {
         /// Share of the lit pixels below the level in percent, 0 to 100.
         percent: f64,
         /// The level over the full well, above 0, to 10.
         full_well_share: f64,
     },
-    /// The same for all pictures.
+    /// The same for all images.
     Fixed {
         /// Electrons per unit of I/F.
         electrons_per_radiance: f64,
     },
-    /// The same for all pictures, from the exposure time.
+    /// The same for all images, from the exposure time.
     Timed {
         /// Electrons per unit of I/F and second of exposure time.
         electrons_per_radiance_s: f64,
@@ -31,7 +31,7 @@ pub enum Exposure {
 }
 
 impl Exposure {
-    /// The percentile (0 to 1) and its share of the full well, if each picture has its own exposure.
+    /// The percentile (0 to 1) and its share of the full well, if each image has its own exposure.
     pub fn automatic_level(&self) -> Option<(f64, f64)> {
         match *self {
             Exposure::Auto => Some((0.99, 0.8)),

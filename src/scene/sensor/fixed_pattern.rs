@@ -1,4 +1,4 @@
-//! Differences between pixels that are the same in every picture of a camera.
+//! Differences between pixels that are the same in every image of a camera.
 
 use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;

@@ -4,7 +4,7 @@ use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A shutter. The time stamp of a picture is the middle of the exposure of its middle row, and the truth is the truth of
+/// A shutter. The time stamp of an image is the middle of the exposure of its middle row, and the truth is the truth of
 /// that moment.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -15,7 +15,7 @@ pub struct ShutterConfig {
     pub row_time_s: f64,
     /// Whether motion during the exposure is drawn (default true).
     pub motion: bool,
-    /// Most pictures that one picture with motion is made of, 1 to 1024 (default 64).
+    /// Most images that one image with motion is made of, 1 to 1024 (default 64).
     pub sub_pictures_at_most: u32,
 }
 

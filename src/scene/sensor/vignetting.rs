@@ -1,4 +1,4 @@
-//! Fall of brightness toward the picture's edge.
+//! Fall of brightness toward the image's edge.
 
 use crate::settings::{OutOfRange, limits};
 use schemars::JsonSchema;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct VignettingConfig {
     /// Whether brightness falls with the fourth power of the cosine of the angle θ off the optical axis (default false).
     pub cosine_fourth: bool,
-    /// Coefficients a₁, a₂, a₃ of the distance r from the principal point over half the picture's diagonal (default 0, 0, 0).
+    /// Coefficients a₁, a₂, a₃ of the distance r from the principal point over half the image's diagonal (default 0, 0, 0).
     pub radial: [f64; 3],
 }
 

@@ -1,4 +1,4 @@
-//! The sky that pictures show behind a body.
+//! The sky that images show behind a body.
 
 use super::catalogue::Star;
 use crate::geometry::Camera;

@@ -15,14 +15,14 @@ use crate::settings::OutOfRange;
 use nalgebra::{Isometry3, Translation3, Unit, Vector2, Vector3};
 use std::path::Path;
 
-/// A tumbling body and the pictures to take of it.
+/// A tumbling body and the images to take of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TumblingScene {
     /// The body in asteroid axes.
     pub body: SmallBody,
-    /// The cameras with their views in asteroid axes; all take their pictures at the same times.
+    /// The cameras with their views in asteroid axes; all take their images at the same times.
     pub cameras: Vec<SceneCamera>,
-    /// True attitude and rate, one a picture. Inertial axes are the camera's.
+    /// True attitude and rate, one an image. Inertial axes are the camera's.
     pub states: Vec<AsteroidState>,
     /// True inertia tensor in asteroid axes, the last element 1.
     pub inertia: AsteroidInertia,
@@ -92,7 +92,7 @@ impl TumblingScene {
         SceneCamera { id: CameraId::single(number), sensor, detector: imager.detector, views }
     }
 
-    /// What a camera sees at any time, between pictures too.
+    /// What a camera sees at any time, between images too.
     pub fn view_at(&self, camera: &SceneCamera, t_ns: i64) -> View {
         let before = self.states.partition_point(|state| state.t_ns <= t_ns).saturating_sub(1);
         let AsteroidState { t_ns: start_ns, asteroid_from_inertial, rate_in_asteroid_rad_s } = self.states[before];
@@ -138,7 +138,7 @@ fn states(config: &TumblingConfig, body: &RigidBody) -> Vec<AsteroidState> {
     states
 }
 
-/// Checks that the camera is outside the body in the first picture; drawing checks the others.
+/// Checks that the camera is outside the body in the first image; drawing checks the others.
 fn check_first_view(config: &TumblingConfig, mesh: &Mesh, view: &View) -> Result<(), OutOfRange> {
     let camera_m = view.reference_from_camera.translation.vector;
     if camera_m.norm() > mesh.radius_m() || mesh.surrounds(&camera_m) == 0 {

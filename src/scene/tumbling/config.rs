@@ -13,9 +13,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TumblingConfig {
-    /// Number of pictures, 1 to 100000 (default 60), the first at t = 0.
+    /// Number of images, 1 to 100000 (default 60), the first at t = 0.
     pub frames: usize,
-    /// Time between pictures in s, 1e-6 to 1e6 (default 1).
+    /// Time between images in s, 1e-6 to 1e6 (default 1).
     pub interval_s: f64,
     /// Angular rate at t = 0 in asteroid axes, °/s, -360 to 360 (default 5.0, 2.3, 3.5).
     pub rate_deg_s: [f64; 3],
@@ -24,7 +24,7 @@ pub struct TumblingConfig {
     /// Quaternion w, x, y, z that takes ICRF axes to inertial ones, that is, to the camera's; only the stars and the Sun's
     /// ephemeris need it (default 1, 0, 0, 0: the camera looks at the celestial north pole, right ascension 0 to the right).
     pub inertial_from_icrf: [f64; 4],
-    /// Diameter of the body's bounding sphere over the smaller side of the picture, 0 to 1 (default 0.7).
+    /// Diameter of the body's bounding sphere over the smaller side of the image, 0 to 1 (default 0.7).
     pub fill_fraction: f64,
     /// Distance at t = 0 from the camera to the body's centre in m, instead of `fill_fraction` (default none).
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -35,7 +35,7 @@ pub struct TumblingConfig {
     pub range_m: Option<f64>,
     /// Speed of the camera toward the body's centre in m/s, negative to draw back, -100000 to 100000 (default 0).
     pub approach_m_s: f64,
-    /// Place of the body's centre in the picture, right and down from the middle, in px (default 0, 0).
+    /// Place of the body's centre in the image, right and down from the middle, in px (default 0, 0).
     pub center_offset_px: [f64; 2],
     /// Number of landmarks on the surface for the ground truth, 0 to 100000 (default 200).
     pub landmarks: usize,

@@ -1,5 +1,5 @@
 //! A tumbling small body in front of a camera that does not turn: rigid-body motion, where the Sun and the camera
-//! stand, and the pictures to take.
+//! stand, and the images to take.
 
 mod build;
 mod config;

@@ -15,7 +15,7 @@ use std::path::Path;
 pub struct PhaseConfig {
     /// Angle at the body between camera and Sun in degrees, 0 to 180 (default 35).
     pub phase_deg: f64,
-    /// Direction in the picture that the light comes from, in degrees from right over up, -360 to 360 (default 135:
+    /// Direction in the image that the light comes from, in degrees from right over up, -360 to 360 (default 135:
     /// upper left).
     pub azimuth_deg: f64,
     /// Distance to the Sun in astronomical units, which sets the size of its disc, 0 to 10000 (default 1); 0 makes it a

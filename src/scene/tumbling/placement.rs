@@ -5,7 +5,7 @@ use crate::geometry::Camera;
 use crate::scene::body::Mesh;
 use nalgebra::{Unit, Vector2, Vector3};
 
-/// Where the camera is at the first picture: at a distance from the body's centre, in m.
+/// Where the camera is at the first image: at a distance from the body's centre, in m.
 pub(super) fn first_distance_m(
     config: &TumblingConfig,
     camera: &Camera,
@@ -23,7 +23,7 @@ pub(super) fn first_distance_m(
     distance_to_fill_m(camera, mesh.radius_m(), config.fill_fraction)
 }
 
-/// Distance in m of a sphere of `radius_m` that fills `fill_fraction` of the picture's smaller side when it is in the
+/// Distance in m of a sphere of `radius_m` that fills `fill_fraction` of the image's smaller side when it is in the
 /// middle. The silhouette of a sphere at distance D has the half-angle asin(R/D).
 fn distance_to_fill_m(camera: &Camera, radius_m: f64, fill_fraction: f64) -> f64 {
     let half_side = (0.5 * size_px(camera)).component_div(&camera.focal_px).min();
@@ -37,7 +37,7 @@ fn size_px(camera: &Camera) -> Vector2<f64> {
     Vector2::new(f64::from(camera.width_px), f64::from(camera.height_px))
 }
 
-/// Direction in camera axes of a pixel, given from the picture's middle to the right and down.
+/// Direction in camera axes of a pixel, given from the image's middle to the right and down.
 pub(super) fn toward_pixel(camera: &Camera, offset_px: &Vector2<f64>) -> Unit<Vector3<f64>> {
     let pixel_px = (0.5 * size_px(camera)).add_scalar(-0.5) + offset_px;
     // Distortion that cannot be inverted here leaves the pinhole's direction; it only moves the body a little.

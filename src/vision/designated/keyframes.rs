@@ -1,7 +1,7 @@
-//! Past pictures to which the designated point is tied, and what their places of it say together.
+//! Past images to which the designated point is tied, and what their places of it say together.
 //!
-//! Each place has drifted off the ground point of the first picture, and the drifts of pictures share a history. With the
-//! joint covariance of the drifts, the mean of what the past pictures say has the least variance that weights can give
+//! Each place has drifted off the ground point of the first image, and the drifts of images share a history. With the
+//! joint covariance of the drifts, the mean of what the past images say has the least variance that weights can give
 //! (best linear unbiased estimate), and an honest one.
 
 use crate::stats::symmetric;
@@ -10,37 +10,37 @@ use crate::vision::noise_model::DesignatedNoise;
 use image::GrayImage;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
-/// Changes of scale to past pictures that are tied besides the last two: a long tie adds one error where a chain of short
+/// Changes of scale to past images that are tied besides the last two: a long tie adds one error where a chain of short
 /// ones adds many.
 const SCALES: [f64; 4] = [1.05, 1.1, 1.2, 1.3];
-/// Most pictures kept.
+/// Most images kept.
 const MOST_KEPT: usize = 40;
 
-/// A past picture with its place of the point.
+/// A past image with its place of the point.
 pub(super) struct Keyframe {
     pub(super) frame: usize,
-    pub(super) picture: GrayImage,
+    pub(super) image: GrayImage,
     pub(super) step: DesignatedStep,
-    /// Size of a pixel on the ground, over that in the first picture.
+    /// Size of a pixel on the ground, over that in the first image.
     size: f64,
     /// Share of the first pixel's covariance, px².
     first_px2: Matrix2<f64>,
-    /// Variance by which the looks of the ground have moved since the first picture, in squared pixels of that.
+    /// Variance by which the looks of the ground have moved since the first image, in squared pixels of that.
     looks: f64,
 }
 
-/// What one past picture says of the point in a new one.
-pub(super) struct Tie {
-    /// Which past picture.
+/// What one past image says of the point in a new one.
+pub(super) struct KeyframeMeasurement {
+    /// Which past image.
     pub(super) from: usize,
     pub(super) pixel_px: Vector2<f64>,
     pub(super) sigma_px: f64,
-    /// Map of the ground about the point from the past picture to the new one.
+    /// Map of the ground about the point from the past image to the new one.
     pub(super) linear: Matrix2<f64>,
     pub(super) refined: bool,
 }
 
-impl Tie {
+impl KeyframeMeasurement {
     fn scale(&self) -> f64 {
         self.linear.determinant().abs().max(1e-12).sqrt()
     }
@@ -50,15 +50,15 @@ impl Tie {
     }
 }
 
-/// The pictures kept, oldest first, with the joint covariance of their drifts over the looks of the ground, in squared
-/// pixels of the first picture. That the looks move is no tie's error: it comes on top, and no weights lessen it.
+/// The images kept, oldest first, with the joint covariance of their drifts over the looks of the ground, in squared
+/// pixels of the first image. That the looks move is no tie's error: it comes on top, and no weights lessen it.
 pub(super) struct Keyframes {
     noise: DesignatedNoise,
     kept: Vec<Keyframe>,
     drift: DMatrix<f64>,
 }
 
-/// The point in a new picture, to be kept with the picture.
+/// The point in a new image, to be kept with the image.
 pub(super) struct Fused {
     pub(super) step: DesignatedStep,
     size: f64,
@@ -69,16 +69,16 @@ pub(super) struct Fused {
 }
 
 impl Keyframes {
-    pub(super) fn new(frame: usize, picture: GrayImage, step: DesignatedStep, noise: DesignatedNoise) -> Self {
+    pub(super) fn new(frame: usize, image: GrayImage, step: DesignatedStep, noise: DesignatedNoise) -> Self {
         let first_px2 = step.covariance_px2;
         Keyframes {
             noise,
-            kept: vec![Keyframe { frame, picture, step, size: 1.0, first_px2, looks: 0.0 }],
+            kept: vec![Keyframe { frame, image, step, size: 1.0, first_px2, looks: 0.0 }],
             drift: DMatrix::zeros(1, 1),
         }
     }
 
-    /// The pictures to tie the next one to, oldest first, with their places among those kept.
+    /// The images to tie the next one to, oldest first, with their places among those kept.
     pub(super) fn chosen(&self) -> impl Iterator<Item = (usize, &Keyframe)> {
         let last = self.kept.len() - 1;
         let off = |index: usize, scale: f64| (self.kept[index].size / self.kept[last].size / scale).ln().abs();
@@ -90,13 +90,13 @@ impl Keyframes {
     }
 
     /// What the ties say together; `None` without any.
-    pub(super) fn fused(&self, t_ns: i64, ties: &[Tie]) -> Option<Fused> {
+    pub(super) fn fused(&self, t_ns: i64, ties: &[KeyframeMeasurement]) -> Option<Fused> {
         let newest = ties.last()?;
         let from = &self.kept[newest.from];
         let size = from.size / newest.scale();
         let n = ties.len();
         let past = DMatrix::from_fn(n, n, |i, j| self.drift[(ties[i].from, ties[j].from)]);
-        let variance = |tie: &Tie| tie.variance_px2(&self.noise) * size * size;
+        let variance = |tie: &KeyframeMeasurement| tie.variance_px2(&self.noise) * size * size;
         let total = &past + DMatrix::from_diagonal(&DVector::from_iterator(n, ties.iter().map(variance)));
         let information = total.clone().cholesky()?.solve(&DVector::from_element(n, 1.0));
         let weights = &information / information.sum();
@@ -121,8 +121,8 @@ impl Keyframes {
         Some(Fused { step, size, first_px2, looks, with_past, drift })
     }
 
-    /// Keeps a picture; the oldest that no tie can reach any more makes room.
-    pub(super) fn keep(&mut self, frame: usize, picture: GrayImage, fused: Fused) {
+    /// Keeps an image; the oldest that no tie can reach any more makes room.
+    pub(super) fn keep(&mut self, frame: usize, image: GrayImage, fused: Fused) {
         let n = self.kept.len();
         let mut drift = self.drift.clone().resize(n + 1, n + 1, 0.0);
         drift.view_mut((n, 0), (1, n)).copy_from(&fused.with_past.transpose());
@@ -130,7 +130,7 @@ impl Keyframes {
         drift[(n, n)] = fused.drift;
         self.drift = drift;
         let Fused { step, size, first_px2, looks, .. } = fused;
-        self.kept.push(Keyframe { frame, picture, step, size, first_px2, looks });
+        self.kept.push(Keyframe { frame, image, step, size, first_px2, looks });
         let too_far = |k: &Keyframe| (k.size / size).ln().abs() > 1.2 * SCALES[SCALES.len() - 1].ln();
         while self.kept.len() > 2 && (self.kept.len() > MOST_KEPT || too_far(&self.kept[0])) {
             self.kept.remove(0);
@@ -145,7 +145,7 @@ mod tests {
     use crate::stats::random_stream;
     use rand_distr::{Distribution, StandardNormal};
 
-    /// A camera that comes 2 % nearer from picture to picture to a point whose true pixel stays at 0. Returns the error of
+    /// A camera that comes 2 % nearer from image to image to a point whose true pixel stays at 0. Returns the error of
     /// the last pixel and its predicted variance, both of one coordinate and in px.
     fn flight(run: u64, noise: f64) -> (f64, f64) {
         const STEP: f64 = 1.02;
@@ -163,7 +163,7 @@ mod tests {
             refined: true,
         };
         let mut keyframes = Keyframes::new(0, GrayImage::default(), start, model);
-        // By how much the looks have moved over the ground at each picture, in pixels of the first.
+        // By how much the looks have moved over the ground at each image, in pixels of the first.
         let mut looks = vec![0.0];
         let size = |frame: usize| STEP.powi(-(frame as i32));
         for frame in 1..=80 {
@@ -173,7 +173,7 @@ mod tests {
                 keyframes.chosen().map(|(from, k)| (from, k.frame, k.step.pixel_px.x)).collect();
             let mut tie = |(from, past, x): &(usize, usize, f64)| {
                 let scale = size(*past) / size(frame);
-                let mut tie = Tie {
+                let mut tie = KeyframeMeasurement {
                     from: *from,
                     pixel_px: Vector2::zeros(),
                     sigma_px: 0.025,
@@ -187,7 +187,7 @@ mod tests {
                 tie.pixel_px.x = scale * x + (looks[frame] - looks[*past]) / size(frame) + noise * error;
                 tie
             };
-            let ties: Vec<Tie> = chosen.iter().map(&mut tie).collect();
+            let ties: Vec<KeyframeMeasurement> = chosen.iter().map(&mut tie).collect();
             let fused = keyframes.fused(frame as i64, &ties).expect("ties");
             keyframes.keep(frame, GrayImage::default(), fused);
         }

@@ -16,7 +16,7 @@ pub struct DetectorConfig {
     pub kind: DetectorKind,
     /// Whose code does it (default opencv): `fused` is Harris alone, and faster; for others it means OpenCV's, too.
     pub implementation: Implementation,
-    /// Most features a picture, 1 or more (default 1000).
+    /// Most features an image, 1 or more (default 1000).
     pub max_features: usize,
     /// Gaussian smoothing before detection, 1σ in px, above 0 (default 1.0).
     pub smoothing_sigma_px: f64,
@@ -31,7 +31,7 @@ pub struct DetectorConfig {
     pub min_response_ratio: f64,
     /// Least distance between features, px, above 0 (default 5).
     pub min_distance_px: f64,
-    /// Features closer to the picture's edge are dropped, px, 4 or more (default 16).
+    /// Features closer to the image's edge are dropped, px, 4 or more (default 16).
     pub border_px: u32,
     /// Peaks of the response with a greater width are too blunt to be found again at the same place, px,
     /// above 0 (default 2.2).

@@ -1,9 +1,9 @@
-//! Smoothed picture and corner response by OpenCV.
+//! Smoothed image and corner response by OpenCV.
 
 use super::detector::Detector;
 use super::response_config::ResponseConfig;
 use super::responses::Responses;
-use crate::vision::opencv_bridge::picture_mat;
+use crate::vision::opencv_bridge::image_mat;
 use image::GrayImage;
 use opencv::core::{BORDER_REFLECT_101, CV_32F, Mat, Size};
 use opencv::imgproc::gaussian_blur;
@@ -12,14 +12,14 @@ use opencv::prelude::*;
 /// Lines that are responded to together: few enough to stay in the processor's cache.
 pub(super) const BAND: i32 = 48;
 
-/// Smooths a picture, lets a detector respond to it, and smooths the response.
+/// Smooths an image, lets a detector respond to it, and smooths the response.
 pub(super) fn responses_by_opencv(
     detector: &dyn Detector,
-    picture: &GrayImage,
+    image: &GrayImage,
     config: &ResponseConfig,
 ) -> opencv::Result<Responses> {
     let mut found = Responses::take();
-    picture_mat(picture)?.convert_to(&mut found.between, CV_32F, 1.0 / 255.0, 0.0)?;
+    image_mat(image)?.convert_to(&mut found.between, CV_32F, 1.0 / 255.0, 0.0)?;
     blur(&found.between, &mut found.smooth, config.smoothing_sigma_px)?;
     respond_in_bands(detector, &found.smooth, config, &mut found.between)?;
     blur(&found.between, &mut found.response, config.response_sigma_px)?;

@@ -2,7 +2,7 @@
 
 use super::config::DetectorConfig;
 use super::corner_response::responses_by_opencv;
-use super::even_spread::spread_evenly;
+use super::even_spread::bucketed;
 use super::feature::Feature;
 use super::image_noise::noise_sigma_dn;
 use super::local_maxima::{Peaks, fused_maxima, maxima_by_opencv};
@@ -12,28 +12,28 @@ use crate::vision::implementation::Implementation;
 use image::GrayImage;
 use opencv::prelude::*;
 
-/// Finds at most `max_features` features of a picture with the detector that is asked for, in order of response; where
+/// Finds at most `max_features` features of an image with the detector that is asked for, in order of response; where
 /// `mask` is given, only where it is not zero.
 ///
 /// A feature lies at the peak of a quadratic through 3×3 responses. Blunt peaks are left out: what changes between two
-/// pictures moves a peak by its width squared.
+/// images moves a peak by its width squared.
 ///
 /// # Errors
 /// A mask of another size, or OpenCV's refusal.
 pub fn detect_features(
-    picture: &GrayImage,
+    image: &GrayImage,
     mask: Option<&GrayImage>,
     config: &DetectorConfig,
 ) -> Result<Vec<Feature>, VisionError> {
-    if let Some(mask) = mask.filter(|m| m.dimensions() != picture.dimensions()) {
-        let ((mask_width_px, mask_height_px), (width_px, height_px)) = (mask.dimensions(), picture.dimensions());
+    if let Some(mask) = mask.filter(|m| m.dimensions() != image.dimensions()) {
+        let ((mask_width_px, mask_height_px), (width_px, height_px)) = (mask.dimensions(), image.dimensions());
         return Err(VisionError::MaskSize { mask_width_px, mask_height_px, width_px, height_px });
     }
-    found(picture, mask, config).map_err(VisionError::opencv("find features"))
+    found(image, mask, config).map_err(VisionError::opencv("find features"))
 }
 
-fn found(picture: &GrayImage, mask: Option<&GrayImage>, config: &DetectorConfig) -> opencv::Result<Vec<Feature>> {
-    let (width, height) = (picture.width() as usize, picture.height() as usize);
+fn found(image: &GrayImage, mask: Option<&GrayImage>, config: &DetectorConfig) -> opencv::Result<Vec<Feature>> {
+    let (width, height) = (image.width() as usize, image.height() as usize);
     // The structure tensor is gathered over the whole block, and its slopes reach a pixel further.
     let border_px = config.border_px.max(config.block_px / 2 + 1) as usize;
     if width.min(height) <= 2 * border_px {
@@ -46,23 +46,23 @@ fn found(picture: &GrayImage, mask: Option<&GrayImage>, config: &DetectorConfig)
     let fused = detector.fused().filter(|_| config.implementation == Implementation::Fused);
     let (responses, maxima) = match fused {
         Some(fused) => {
-            let responses = fused(picture, &response)?;
+            let responses = fused(image, &response)?;
             let maxima = fused_maxima(&responses.response, &peaks)?;
             (responses, maxima)
         }
         None => {
-            let responses = responses_by_opencv(detector, picture, &response)?;
+            let responses = responses_by_opencv(detector, image, &response)?;
             let maxima = maxima_by_opencv(&responses.response, &peaks)?;
             (responses, maxima)
         }
     };
     let (smooth, response) = (responses.smooth.data_typed()?, responses.response.data_typed()?);
-    let grid = Grid { width, smooth, response, noise_dn: noise_sigma_dn(picture), model: &model };
+    let grid = Grid { width, smooth, response, noise_dn: noise_sigma_dn(image), model: &model };
     let feature = |at: usize| {
         let peak = grid.peak(at).filter(|p| p.width_px() <= config.max_peak_width_px)?;
         Some(Feature::new(&grid, &peak, config)).filter(|f| f.sigma_px <= config.max_sigma_px)
     };
-    let chosen = spread_evenly(&maxima, (width, height), config.max_features, config.min_distance_px, feature);
+    let chosen = bucketed(&maxima, (width, height), config.max_features, config.min_distance_px, feature);
     responses.put_back();
     Ok(chosen)
 }

@@ -1,11 +1,11 @@
-//! Choosing features that cover the picture.
+//! Choosing features that cover the image.
 
 /// Chooses at most `count` of `peaks` (response and pixel index) that `accept` makes something of (it is asked about few of
 /// them), no two closer than `distance_px`, and gives what was made of them in order of response.
 ///
-/// The picture is cut into about `count / 2` cells; each round takes the strongest remaining peak of every cell, so that
+/// The image is cut into about `count / 2` cells; each round takes the strongest remaining peak of every cell, so that
 /// dim ground is covered before bright ground is crowded.
-pub(super) fn spread_evenly<T>(
+pub(super) fn bucketed<T>(
     peaks: &[(f32, usize)],
     (width, height): (usize, usize),
     count: usize,

@@ -1,4 +1,4 @@
-//! A feature of a picture.
+//! A feature of an image.
 
 use super::config::DetectorConfig;
 use super::subpixel_peak::{Grid, Peak};
@@ -14,7 +14,7 @@ pub struct Feature {
     /// Predicted 1σ of each coordinate in px: the root of half the covariance's trace.
     pub sigma_px: f64,
     /// Predicted covariance of the pixel in px², from the noise through the structure tensor, and from the change of the
-    /// ground's looks between two pictures through the shape of the peak.
+    /// ground's looks between two images through the shape of the peak.
     pub covariance_px2: Matrix2<f64>,
 }
 

@@ -32,12 +32,12 @@ mod tests {
     use opencv::prelude::*;
     use rand::RngExt;
 
-    /// Greatest difference of our smoothed picture and response from OpenCV's, each over the greatest value.
+    /// Greatest difference of our smoothed image and response from OpenCV's, each over the greatest value.
     fn off(size: (u32, u32), ours: &ResponseConfig, theirs: &ResponseConfig) -> [f32; 2] {
         let mut random = random_stream(3, "picture", 0);
-        let picture = GrayImage::from_fn(size.0, size.1, |_, _| image::Luma([random.random()]));
-        let found = fused_responses(&picture, ours).expect("one pass");
-        let other = responses_by_opencv(&Harris, &picture, theirs).expect("OpenCV filters");
+        let image = GrayImage::from_fn(size.0, size.1, |_, _| image::Luma([random.random()]));
+        let found = fused_responses(&image, ours).expect("one pass");
+        let other = responses_by_opencv(&Harris, &image, theirs).expect("OpenCV filters");
         let greatest = |ours: &Mat, theirs: &Mat| {
             let [ours, theirs]: [&[f32]; 2] = [ours, theirs].map(|m| m.data_typed().expect("numbers"));
             let most = |values: &mut dyn Iterator<Item = f32>| values.fold(0.0, |a, b| f32::max(a, b.abs()));

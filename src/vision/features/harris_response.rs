@@ -1,4 +1,4 @@
-//! The Harris response of a picture, in one pass over its lines.
+//! The Harris response of an image, in one pass over its lines.
 
 use super::line_filter::{Lines, Padded, along, down, gaussian};
 use super::response_config::ResponseConfig;
@@ -13,10 +13,10 @@ struct Planes<'a> {
     response: &'a mut [f32],
 }
 
-/// The same as OpenCV's but for rounding: smooths a picture, gathers its structure tensor from Sobel's slopes over a
+/// The same as OpenCV's but for rounding: smooths an image, gathers its structure tensor from Sobel's slopes over a
 /// square, and smooths Harris' response to it.
-pub(super) fn fused_responses(picture: &GrayImage, config: &ResponseConfig) -> opencv::Result<Responses> {
-    let (width, height) = picture.dimensions();
+pub(super) fn fused_responses(image: &GrayImage, config: &ResponseConfig) -> opencv::Result<Responses> {
+    let (width, height) = image.dimensions();
     let mut found = Responses::take();
     for plane in [&mut found.smooth, &mut found.response] {
         if plane.size()? != Size::new(width as i32, height as i32) {
@@ -24,7 +24,7 @@ pub(super) fn fused_responses(picture: &GrayImage, config: &ResponseConfig) -> o
         }
     }
     let planes = Planes { smooth: found.smooth.data_typed_mut()?, response: found.response.data_typed_mut()? };
-    fill(picture.as_raw(), (width as usize, height as usize), config, planes);
+    fill(image.as_raw(), (width as usize, height as usize), config, planes);
     Ok(found)
 }
 

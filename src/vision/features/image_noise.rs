@@ -1,18 +1,18 @@
-//! Noise of a picture, from the picture itself.
+//! Noise of an image, from the image itself.
 
 use image::GrayImage;
 
 /// Response of a pixel that shows no noise: empty sky, or saturated. No other has this one.
 const BLIND: u16 = 4095;
 
-/// 1σ of the picture's noise in grey levels (Immerkaer 1996), from the lower quartile of the response of a mask that
+/// 1σ of the image's noise in grey levels (Immerkaer 1996), from the lower quartile of the response of a mask that
 /// is blind to planes and edges, so that texture counts little; at least the noise of rounding.
-pub fn noise_sigma_dn(picture: &GrayImage) -> f64 {
-    let (width, height) = (picture.width() as usize, picture.height() as usize);
+pub fn noise_sigma_dn(image: &GrayImage) -> f64 {
+    let (width, height) = (image.width() as usize, image.height() as usize);
     let mut histogram = vec![0u32; usize::from(BLIND) + 1];
     let mut line = vec![BLIND; width.saturating_sub(2)];
     for y in (1..height.saturating_sub(1)).step_by(3) {
-        let row = |y: usize| &picture.as_raw()[y * width..][..width];
+        let row = |y: usize| &image.as_raw()[y * width..][..width];
         respond([row(y - 1), row(y), row(y + 1)], &mut line);
         line.iter().for_each(|r| histogram[usize::from(*r & BLIND)] += 1);
     }

@@ -1,10 +1,10 @@
-//! Symmetric filters over pictures that arrive line by line: only the few lines that a filter reaches over are kept, so
+//! Symmetric filters over images that arrive line by line: only the few lines that a filter reaches over are kept, so
 //! that they stay in the processor's cache.
 //!
-//! Beyond its edges a picture goes on as its mirror image about the edge's own pixels (`…2 1 | 0 1 2…`). Sums are always
+//! Beyond its edges an image goes on as its mirror image about the edge's own pixels (`…2 1 | 0 1 2…`). Sums are always
 //! made in the same order, pixel by pixel: how wide the processor's registers are does not show in them.
 
-/// The last lines of a picture.
+/// The last lines of an image.
 pub(super) struct Lines {
     width: usize,
     height: usize,

@@ -1,4 +1,4 @@
-//! Corners: response, maxima, sub-pixel peak with its covariance, spread over the picture, the picture's noise.
+//! Corners: response, maxima, sub-pixel peak with its covariance, spread over the image, the image's noise.
 
 mod config;
 mod corner_response;

@@ -1,4 +1,4 @@
-//! How a picture becomes a corner response.
+//! How an image becomes a corner response.
 
 /// Filters about a corner response.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,13 +4,13 @@ use super::config::DetectorConfig;
 use super::detector::PeakModel;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
-/// A picture's responses, row by row.
+/// An image's responses, row by row.
 pub(super) struct Grid<'a> {
     pub(super) width: usize,
     /// Smoothed grey levels over 255.
     pub(super) smooth: &'a [f32],
     pub(super) response: &'a [f32],
-    /// 1σ of the picture's noise in grey levels.
+    /// 1σ of the image's noise in grey levels.
     pub(super) noise_dn: f64,
     pub(super) model: &'a PeakModel,
 }
@@ -59,7 +59,7 @@ impl Grid<'_> {
         by_change + by_noise
     }
 
-    /// Structure tensor of the smoothed picture over a block, in squared grey levels.
+    /// Structure tensor of the smoothed image over a block, in squared grey levels.
     fn tensor_dn2(&self, at: usize, block_px: u32) -> Matrix2<f64> {
         let half = (block_px / 2) as usize;
         let mut tensor = Matrix2::zeros();

@@ -1,8 +1,8 @@
-//! The pose of a badly predicted picture: descriptors matched anywhere, and the pose that most of them agree with.
+//! The pose of a badly predicted image: descriptors matched anywhere, and the pose that most of them agree with.
 
 use super::config::MapFeatures;
 use super::fit::{Pointing, fit_pose};
-use super::ground::Ground;
+use super::ground::MapGround;
 use super::points::half_px;
 use super::view::MapView;
 use crate::geometry::Camera;
@@ -18,7 +18,7 @@ use opencv::core::{Mat, Point3d, Vector, no_array};
 
 /// Heights at which the map is drawn, in 1σ of the predicted height: descriptors bear a change of scale of a tenth.
 const HEIGHTS_SIGMA: [f64; 5] = [0.0, -0.8, 0.8, -1.6, 1.6];
-/// Corners of each picture.
+/// Corners of each image.
 const CORNERS: usize = 800;
 /// A match agrees with a pose up to this residual, px.
 const AGREEING_PX: f64 = 4.0;
@@ -29,20 +29,20 @@ const SAMPLES: i32 = 2000;
 /// 1σ of a corner's pixel among the agreeing matches, px.
 const CORNER_SIGMA_PX: f64 = 0.7;
 
-/// The pose of a picture within the wide limits of its prediction; `None` where too few corners match the map.
+/// The pose of an image within the wide limits of its prediction; `None` where too few corners match the map.
 pub(super) fn acquire(
-    ground: &Ground,
-    (picture, camera): (&GrayImage, &Camera),
+    ground: &MapGround,
+    (image, camera): (&GrayImage, &Camera),
     predicted: &PredictedCamera,
     means: &MapFeatures,
 ) -> Result<Option<Isometry3<f64>>, VisionError> {
-    let (features, descriptors) = described(picture, None, means)?;
+    let (features, descriptors) = described(image, None, means)?;
     let here = Described { features: &features, descriptors: &descriptors };
     let mut best: Option<(usize, Isometry3<f64>)> = None;
     for height_sigma in HEIGHTS_SIGMA {
         let raised = raised(&predicted.camera_from_site, height_sigma * predicted.sigma_position_m);
         let view = MapView::draw(ground, camera, &raised);
-        let (map_features, map_descriptors) = described(&view.picture, Some(&view.known), means)?;
+        let (map_features, map_descriptors) = described(&view.image, Some(&view.known), means)?;
         let there = Described { features: &map_features, descriptors: &map_descriptors };
         let matches = match_features(there, here, &means.matcher)?;
         let pointing = |m: &crate::vision::matching::IndexMatch| {
@@ -66,14 +66,14 @@ fn raised(camera_from_site: &Isometry3<f64>, by_m: f64) -> Isometry3<f64> {
 }
 
 fn described(
-    picture: &GrayImage,
+    image: &GrayImage,
     known: Option<&GrayImage>,
     means: &MapFeatures,
 ) -> Result<(Vec<Feature>, DescriptorSet), VisionError> {
-    let border_px = 2 * half_px(picture);
+    let border_px = 2 * half_px(image);
     let config = DetectorConfig { max_features: CORNERS, border_px, ..means.detector.clone() };
-    let features = detect_features(picture, known, &config)?;
-    let descriptors = describe_features(picture, &features, Orientation::Upright, &means.matcher)?;
+    let features = detect_features(image, known, &config)?;
+    let descriptors = describe_features(image, &features, Orientation::Upright, &means.matcher)?;
     Ok((features, descriptors))
 }
 

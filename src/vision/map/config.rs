@@ -8,7 +8,7 @@ use crate::vision::noise_model::{MapNoise, NoiseModel, PatchNoise};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What finds and matches features of a map and of a picture: the front end's settings. How many features, and how far off
+/// What finds and matches features of a map and of an image: the front end's settings. How many features, and how far off
 /// the edge, the map decides itself.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MapFeatures {
@@ -25,26 +25,26 @@ impl MapFeatures {
     }
 }
 
-/// Matching of pictures with a map.
+/// Matching of images with a map.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MapMatchConfig {
-    /// Pictures are halved until neither side is longer, px, 64 or more (default 512).
+    /// Images are halved until neither side is longer, px, 64 or more (default 512).
     pub max_side_px: u32,
-    /// Pictures are halved, too, until a pixel on the ground is as large as this share of the map's finest pixel there,
+    /// Images are halved, too, until a pixel on the ground is as large as this share of the map's finest pixel there,
     /// above 0 (default 0.6): the map does not know what is smaller.
     pub least_pixel_ratio: f64,
-    /// Corners of the map that are looked for in a picture, no fewer than `fewest_sightings` (default 100).
+    /// Corners of the map that are looked for in an image, no fewer than `fewest_sightings` (default 100).
     pub candidates: usize,
-    /// Most sightings given, spread over the picture, no fewer than `fewest_sightings` (default 30): errors of near ones are
+    /// Most sightings given, spread over the image, no fewer than `fewest_sightings` (default 30): errors of near ones are
     /// alike.
     pub most_sightings: usize,
     /// Fewest sightings that agree with one pose; below, none is given, 4 or more (default 8).
     pub fewest_sightings: usize,
     /// Least share of the corners found that have to agree, 0 to 1 (default 0.5).
     pub least_agreeing: f64,
-    /// Greatest predicted 1σ of a pixel, in px of the halved picture, with which patches are looked for at once; beyond,
-    /// the picture is matched by descriptors first, above 0 (default 3).
+    /// Greatest predicted 1σ of a pixel, in px of the halved image, with which patches are looked for at once; beyond,
+    /// the image is matched by descriptors first, above 0 (default 3).
     pub track_sigma_px: f64,
     /// How wrong the points are that are found (default: the noise model's).
     pub noise: MapNoise,

@@ -10,9 +10,9 @@ const SETTLED: f64 = 0.02;
 /// …or, after all steps, this near: beside a seam between levels.
 const NEAR: f64 = 0.3;
 
-/// A map with smaller copies of its pictures.
+/// A map with smaller copies of its images.
 #[derive(Debug, Clone)]
-pub(super) struct Ground {
+pub(super) struct MapGround {
     map: GroundMap,
     /// Copies of each level, each half as large as the one before.
     copies: Vec<Vec<Copy>>,
@@ -37,7 +37,7 @@ struct Copy {
     brightness: Vec<f32>,
 }
 
-impl Ground {
+impl MapGround {
     pub(super) fn new(map: &GroundMap) -> Self {
         let (mut sum_m, mut count) = (0.0, 0usize);
         for height_m in map.levels[0].heights_m.iter().filter(|h| !h.is_nan()) {
@@ -45,7 +45,7 @@ impl Ground {
             count += 1;
         }
         let copies = map.levels.iter().map(copies).collect();
-        Ground { map: map.clone(), copies, mean_height_m: sum_m / count.max(1) as f64 }
+        MapGround { map: map.clone(), copies, mean_height_m: sum_m / count.max(1) as f64 }
     }
 
     pub(super) fn level(&self, index: usize) -> &MapLevel {
@@ -116,7 +116,7 @@ fn copies(level: &MapLevel) -> Vec<Copy> {
     let (width, height) = level.size_px();
     let known = level.heights_m.iter().map(|h| !h.is_nan());
     let scale = 1.0 / f32::from(u16::MAX);
-    let grey = level.picture.iter().zip(known).map(|(n, known)| if known { f32::from(*n) * scale } else { f32::NAN });
+    let grey = level.image.iter().zip(known).map(|(n, known)| if known { f32::from(*n) * scale } else { f32::NAN });
     let mut copies = vec![Copy { width: width as usize, height: height as usize, brightness: grey.collect() }];
     while copies[copies.len() - 1].width.min(copies[copies.len() - 1].height) >= 32 {
         copies.push(copies[copies.len() - 1].halved());

@@ -1,9 +1,9 @@
-//! One picture against the map.
+//! One image against the map.
 
 use super::acquire::acquire;
 use super::config::{MapFeatures, MapMatchConfig};
 use super::fit::{Pointing, fit_pose};
-use super::ground::{Ground, Meeting};
+use super::ground::{MapGround, Meeting};
 use super::points::{FoundPoint, find, spread};
 use super::result::{MapFix, MapStatus};
 use super::view::MapView;
@@ -11,7 +11,7 @@ use crate::dataset::GroundMap;
 use crate::geometry::Camera;
 use crate::observations::PredictedCamera;
 use crate::vision::error::VisionError;
-use crate::vision::opencv_bridge::{grey_image, picture_mat};
+use crate::vision::opencv_bridge::{grey_image, image_mat};
 use image::GrayImage;
 use nalgebra::{Isometry3, Matrix2, Vector2, Vector3};
 use opencv::core::{BORDER_REFLECT_101, Mat, Size};
@@ -19,17 +19,17 @@ use opencv::imgproc::pyr_down;
 
 /// Least share of the predicted view that the map has to cover.
 const LEAST_COVERED: f64 = 0.05;
-/// Pictures are not made smaller than this, px.
+/// Images are not made smaller than this, px.
 const LEAST_SIDE_PX: u32 = 64;
 /// Residuals beyond this many 1σ do not agree.
 const GATE_SIGMA: f64 = 3.5;
 /// What is left to find after descriptors told the pose: 1σ of position over height, and of attitude.
 const ACQUIRED_SHARE: f64 = 0.002;
 
-/// Finds points of a map in pictures.
+/// Finds points of a map in images.
 #[derive(Debug, Clone)]
 pub struct MapMatcher {
-    ground: Ground,
+    ground: MapGround,
     means: MapFeatures,
     config: MapMatchConfig,
 }
@@ -43,12 +43,12 @@ impl MapMatcher {
         means.detector.validate().map_err(|e| e.under("detector"))?;
         means.matcher.validate().map_err(|e| e.under("matcher"))?;
         config.validate().map_err(|e| e.under("map"))?;
-        Ok(MapMatcher { ground: Ground::new(map), means: means.clone(), config: config.clone() })
+        Ok(MapMatcher { ground: MapGround::new(map), means: means.clone(), config: config.clone() })
     }
 
-    /// Points of the map in a picture that was taken near the predicted pose.
+    /// Points of the map in an image that was taken near the predicted pose.
     ///
-    /// The map is drawn as the predicted camera sees it, and patches about its corners are looked for in the picture. Where
+    /// The map is drawn as the predicted camera sees it, and patches about its corners are looked for in the image. Where
     /// the prediction is too wide for that, corners are matched by their descriptors first. The points that agree with one
     /// pose are given, the pose with them. That too few are found is an outcome.
     ///
@@ -56,7 +56,7 @@ impl MapMatcher {
     /// OpenCV's refusal.
     pub fn sightings(
         &self,
-        picture: &GrayImage,
+        image: &GrayImage,
         camera: &Camera,
         predicted: &PredictedCamera,
     ) -> Result<MapFix, VisionError> {
@@ -71,17 +71,17 @@ impl MapMatcher {
         };
         let Some(height_m) = self.height_m(&predicted.camera_from_site) else { return Ok(nothing(MapStatus::OffMap)) };
         let halvings = self.halvings(camera, &predicted.camera_from_site, height_m);
-        let (picture, camera) = halved(picture, camera, halvings)?;
+        let (image, camera) = halved(image, camera, halvings)?;
         let scale = f64::from(1u32 << halvings);
         let focal_px = camera.mean_focal_px();
         let sigma_px = focal_px * (predicted.sigma_position_m / height_m).hypot(predicted.sigma_attitude_rad);
         if sigma_px <= self.config.track_sigma_px {
-            let fix = self.tracked((&picture, &camera), predicted, MapStatus::Tracked, scale)?;
+            let fix = self.tracked((&image, &camera), predicted, MapStatus::Tracked, scale)?;
             if fix.status == MapStatus::Tracked || sigma_px < 0.5 {
                 return Ok(fix);
             }
         }
-        let Some(pose) = acquire(&self.ground, (&picture, &camera), predicted, &self.means)? else {
+        let Some(pose) = acquire(&self.ground, (&image, &camera), predicted, &self.means)? else {
             return Ok(nothing(MapStatus::Lost));
         };
         let near = PredictedCamera {
@@ -89,12 +89,12 @@ impl MapMatcher {
             sigma_position_m: predicted.sigma_position_m.min(ACQUIRED_SHARE * height_m),
             sigma_attitude_rad: predicted.sigma_attitude_rad.min(ACQUIRED_SHARE),
         };
-        let first = self.tracked((&picture, &camera), &near, MapStatus::Acquired, scale)?;
+        let first = self.tracked((&image, &camera), &near, MapStatus::Acquired, scale)?;
         if first.status != MapStatus::Acquired {
             return Ok(first);
         }
         self.tracked(
-            (&picture, &camera),
+            (&image, &camera),
             &PredictedCamera { camera_from_site: first.camera_from_site, ..near },
             MapStatus::Acquired,
             scale,
@@ -104,7 +104,7 @@ impl MapMatcher {
     /// Patches about corners of the map at their predicted places.
     fn tracked(
         &self,
-        (picture, camera): (&GrayImage, &Camera),
+        (image, camera): (&GrayImage, &Camera),
         predicted: &PredictedCamera,
         status: MapStatus,
         scale: f64,
@@ -122,7 +122,7 @@ impl MapMatcher {
         if view.covered < LEAST_COVERED {
             return Ok(fix);
         }
-        let found = find(&view, picture, &self.config, &self.means.detector)?;
+        let found = find(&view, image, &self.config, &self.means.detector)?;
         (fix.status, fix.found) = (MapStatus::Lost, found.len());
         let Some((pose, agreeing, worse)) = self.agreeing(camera, &found, predicted) else { return Ok(fix) };
         fix.agreeing = agreeing.len();
@@ -194,7 +194,7 @@ impl MapMatcher {
         Some(place_m.z - ground_m).filter(|height_m| *height_m > 0.5)
     }
 
-    /// How often a picture is halved before it is compared with the map.
+    /// How often an image is halved before it is compared with the map.
     fn halvings(&self, camera: &Camera, camera_from_site: &Isometry3<f64>, height_m: f64) -> u32 {
         let (width, height) = camera.size_px();
         let place_m = camera_from_site.inverse().translation.vector;
@@ -212,9 +212,9 @@ impl MapMatcher {
     }
 }
 
-/// The picture and its camera after some halvings: the pixel (u, v) becomes (u/2, v/2).
-fn halved(picture: &GrayImage, camera: &Camera, halvings: u32) -> Result<(GrayImage, Camera), VisionError> {
-    let mut small = picture.clone();
+/// The image and its camera after some halvings: the pixel (u, v) becomes (u/2, v/2).
+fn halved(image: &GrayImage, camera: &Camera, halvings: u32) -> Result<(GrayImage, Camera), VisionError> {
+    let mut small = image.clone();
     let mut camera = *camera;
     for _ in 0..halvings {
         small = half(&small).map_err(VisionError::opencv("shrink a picture"))?;
@@ -225,8 +225,8 @@ fn halved(picture: &GrayImage, camera: &Camera, halvings: u32) -> Result<(GrayIm
     Ok((small, camera))
 }
 
-fn half(picture: &GrayImage) -> opencv::Result<GrayImage> {
+fn half(image: &GrayImage) -> opencv::Result<GrayImage> {
     let mut half = Mat::default();
-    pyr_down(&picture_mat(picture)?, &mut half, Size::default(), BORDER_REFLECT_101)?;
+    pyr_down(&image_mat(image)?, &mut half, Size::default(), BORDER_REFLECT_101)?;
     grey_image(&half)
 }

@@ -1,4 +1,4 @@
-//! Points of the map that patches find in a picture.
+//! Points of the map that patches find in an image.
 
 use super::config::MapMatchConfig;
 use super::fit::Pointing;
@@ -16,9 +16,9 @@ use nalgebra::{Matrix2, Vector2};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FoundPoint {
     pub(super) meeting: Meeting,
-    /// Pixel of the halved picture.
+    /// Pixel of the halved image.
     pub(super) pixel_px: Vector2<f64>,
-    /// Covariance, px² of the halved picture.
+    /// Covariance, px² of the halved image.
     pub(super) covariance_px2: Matrix2<f64>,
 }
 
@@ -28,7 +28,7 @@ impl FoundPoint {
         Pointing { point_in_site_m: self.meeting.point_in_site_m, pixel_px: self.pixel_px, sigma_px }
     }
 
-    /// The sighting in the whole picture, which is `scale` times as large.
+    /// The sighting in the whole image, which is `scale` times as large.
     pub(super) fn sighting(&self, scale: f64, level: &MapLevel) -> MapSighting {
         MapSighting {
             pixel_px: self.pixel_px * scale,
@@ -48,27 +48,27 @@ pub(super) fn corners(
     detector: &DetectorConfig,
 ) -> Result<Vec<Vector2<f64>>, VisionError> {
     let config = DetectorConfig { max_features: count, border_px: half_px + 3, ..detector.clone() };
-    let features = detect_features(&view.picture, Some(&view.known), &config)?;
+    let features = detect_features(&view.image, Some(&view.known), &config)?;
     let margin_px = i64::from(half_px) + 2;
     Ok(features.iter().map(|f| f.pixel_px).filter(|p| view.knows_square(p, margin_px)).collect())
 }
 
-/// Half the side of the patches for a picture of a size: small pictures have small ones.
-pub(super) fn half_px(picture: &GrayImage) -> u32 {
-    (picture.width().min(picture.height()) / 16).clamp(5, 10)
+/// Half the side of the patches for an image of a size: small images have small ones.
+pub(super) fn half_px(image: &GrayImage) -> u32 {
+    (image.width().min(image.height()) / 16).clamp(5, 10)
 }
 
-/// Follows corners of the drawn map into the picture, which shows nearly the same.
+/// Follows corners of the drawn map into the image, which shows nearly the same.
 pub(super) fn find(
     view: &MapView,
-    picture: &GrayImage,
+    image: &GrayImage,
     config: &MapMatchConfig,
     detector: &DetectorConfig,
 ) -> Result<Vec<FoundPoint>, VisionError> {
-    let half_px = half_px(picture);
+    let half_px = half_px(image);
     let corners = corners(view, config.candidates, half_px, detector)?;
     let klt = KltConfig { half_px, noise: config.patch_noise, ..KltConfig::default() };
-    let found = track_patches((&view.picture, picture), &corners, &|pixel_px| Some(*pixel_px), &klt)?;
+    let found = track_patches((&view.image, image), &corners, &|pixel_px| Some(*pixel_px), &klt)?;
     let looks_px2 = Matrix2::identity() * config.noise.looks_sigma_px.powi(2);
     let point = |(corner, found): (&Vector2<f64>, &Option<crate::vision::patch::KltPoint>)| {
         let found = found.as_ref()?;

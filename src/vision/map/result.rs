@@ -1,13 +1,13 @@
-//! What a map says of a picture.
+//! What a map says of an image.
 
 use nalgebra::{Isometry3, Matrix2, Vector2, Vector3};
 
-/// A point of the map that was found in a picture.
+/// A point of the map that was found in an image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MapSighting {
-    /// Pixel (u, v) of the picture.
+    /// Pixel (u, v) of the image.
     pub pixel_px: Vector2<f64>,
-    /// Covariance of the pixel, px². What all sightings of a picture have in common is in it as many times as there are
+    /// Covariance of the pixel, px². What all sightings of an image have in common is in it as many times as there are
     /// sightings: taken as independent, they are right about the pose together.
     pub covariance_px2: Matrix2<f64>,
     /// The point in the site frame, m.
@@ -25,7 +25,7 @@ impl MapSighting {
     }
 }
 
-/// How a picture was matched with the map.
+/// How an image was matched with the map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum MapStatus {
     /// By patches at their predicted places.
@@ -38,22 +38,22 @@ pub enum MapStatus {
     Lost,
 }
 
-/// What became of one picture.
+/// What became of one image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapFix {
     /// How it was matched.
     pub status: MapStatus,
-    /// The points, spread over the picture; none unless tracked or acquired.
+    /// The points, spread over the image; none unless tracked or acquired.
     pub sightings: Vec<MapSighting>,
     /// The pose that fits all agreeing points best, the prediction counted in with its 1σ; the prediction itself where
     /// there are none.
     pub camera_from_site: Isometry3<f64>,
-    /// Points found in the picture.
+    /// Points found in the image.
     pub found: usize,
     /// Points that agree with the pose.
     pub agreeing: usize,
-    /// R.m.s. of the agreeing points' residuals, px of the picture.
+    /// R.m.s. of the agreeing points' residuals, px of the image.
     pub residual_px: f64,
-    /// Edge of the pixels that were compared, over that of the picture's: how often it was halved.
+    /// Edge of the pixels that were compared, over that of the image's: how often it was halved.
     pub scale: f64,
 }

@@ -1,6 +1,6 @@
 //! What a camera would see of the map.
 
-use super::ground::{Ground, Meeting};
+use super::ground::{MapGround, Meeting};
 use crate::geometry::Camera;
 use image::GrayImage;
 use nalgebra::{Isometry3, Matrix3, Vector2, Vector3};
@@ -10,14 +10,14 @@ use rayon::prelude::*;
 const MEAN_DN: f32 = 128.0;
 const SPREAD_DN: f32 = 45.0;
 
-/// A picture of the map.
+/// An image of the map.
 pub(super) struct MapView<'a> {
-    ground: &'a Ground,
+    ground: &'a MapGround,
     camera: Camera,
     origin_in_site_m: Vector3<f64>,
     site_from_camera: Matrix3<f64>,
-    /// The picture, its contrast stretched; grey where the map knows nothing.
-    pub(super) picture: GrayImage,
+    /// The image, its contrast stretched; grey where the map knows nothing.
+    pub(super) image: GrayImage,
     /// 255 where the map knows the ground, 0 elsewhere.
     pub(super) known: GrayImage,
     /// Share of the pixels that show known ground.
@@ -26,14 +26,14 @@ pub(super) struct MapView<'a> {
 
 impl<'a> MapView<'a> {
     /// Draws the map as a camera at a pose sees it.
-    pub(super) fn draw(ground: &'a Ground, camera: &Camera, camera_from_site: &Isometry3<f64>) -> Self {
+    pub(super) fn draw(ground: &'a MapGround, camera: &Camera, camera_from_site: &Isometry3<f64>) -> Self {
         let (width, height) = camera.size_px();
         let mut view = MapView {
             ground,
             camera: *camera,
             origin_in_site_m: camera_from_site.inverse().translation.vector,
             site_from_camera: camera_from_site.rotation.inverse().to_rotation_matrix().into_inner(),
-            picture: GrayImage::default(),
+            image: GrayImage::default(),
             known: GrayImage::default(),
             covered: 0.0,
         };
@@ -49,7 +49,7 @@ impl<'a> MapView<'a> {
         let values: Vec<f32> = (0..height).into_par_iter().flat_map_iter(row).collect();
         let known: Vec<u8> = values.iter().map(|v| if v.is_nan() { 0 } else { 255 }).collect();
         view.covered = known.iter().filter(|k| **k > 0).count() as f64 / known.len() as f64;
-        view.picture = GrayImage::from_raw(width, height, stretched(&values)).expect("a byte a pixel");
+        view.image = GrayImage::from_raw(width, height, stretched(&values)).expect("a byte a pixel");
         view.known = GrayImage::from_raw(width, height, known).expect("a byte a pixel");
         view
     }

@@ -1,7 +1,7 @@
-//! Parts of every picture that are not to be looked at: a leg of the lander, an antenna, a dirty lens.
+//! Parts of every image that are not to be looked at: a leg of the lander, an antenna, a dirty lens.
 
 use crate::vision::error::VisionError;
-use crate::vision::opencv_bridge::{grey_image, picture_mat};
+use crate::vision::opencv_bridge::{grey_image, image_mat};
 use image::GrayImage;
 use nalgebra::Vector2;
 use opencv::core::{BORDER_CONSTANT, Mat, Point, Scalar, Size};
@@ -10,7 +10,7 @@ use opencv::imgproc::{MORPH_RECT, erode, get_structuring_element};
 /// How much further than half its side a patch may reach: a pixel for its slopes, and two for where it ends up.
 const BEYOND_PATCH_PX: u32 = 3;
 
-/// A mask that holds for all pictures.
+/// A mask that holds for all images.
 pub struct KeepOut<'a> {
     mask: &'a GrayImage,
     clear: GrayImage,
@@ -45,20 +45,20 @@ impl<'a> KeepOut<'a> {
         inside && self.clear.get_pixel(x as u32, y as u32).0[0] != 0
     }
 
-    /// The picture, black where it is not to be looked at.
-    pub fn blackened(&self, picture: &GrayImage) -> GrayImage {
-        let mut seen = picture.clone();
+    /// The image, black where it is not to be looked at.
+    pub fn blackened(&self, image: &GrayImage) -> GrayImage {
+        let mut seen = image.clone();
         seen.iter_mut().zip(self.mask.as_raw()).filter(|(_, mask)| **mask == 0).for_each(|(level, _)| *level = 0);
         seen
     }
 }
 
-/// The mask without what lies within `margin_px` of its zeros along both axes; the picture's edge is no zero.
+/// The mask without what lies within `margin_px` of its zeros along both axes; the image's edge is no zero.
 fn clear_of(mask: &GrayImage, margin_px: u32) -> opencv::Result<GrayImage> {
     let (side, centre) = (2 * margin_px as i32 + 1, Point::new(-1, -1));
     let square = get_structuring_element(MORPH_RECT, Size::new(side, side), centre)?;
     let (beyond, mut clear) = (Scalar::all(f64::MAX), Mat::default());
-    erode(&picture_mat(mask)?, &mut clear, &square, centre, 1, BORDER_CONSTANT, beyond)?;
+    erode(&image_mat(mask)?, &mut clear, &square, centre, 1, BORDER_CONSTANT, beyond)?;
     grey_image(&clear)
 }
 

@@ -1,4 +1,4 @@
-//! Features by cells of the picture, to find those near a place.
+//! Features by cells of the image, to find those near a place.
 
 use nalgebra::Vector2;
 

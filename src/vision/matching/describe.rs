@@ -1,4 +1,4 @@
-//! Descriptors of the features of a picture, by the descriptor that is asked for.
+//! Descriptors of the features of an image, by the descriptor that is asked for.
 
 use super::config::MatcherConfig;
 use super::descriptor::Orientation;
@@ -7,15 +7,15 @@ use crate::vision::error::VisionError;
 use crate::vision::features::Feature;
 use image::GrayImage;
 
-/// Describes features of a picture with the descriptor that is asked for.
+/// Describes features of an image with the descriptor that is asked for.
 ///
 /// # Errors
 /// A setting out of range, or OpenCV's refusal.
 pub fn describe_features(
-    picture: &GrayImage,
+    image: &GrayImage,
     features: &[Feature],
     orientation: Orientation,
     config: &MatcherConfig,
 ) -> Result<DescriptorSet, VisionError> {
-    config.descriptor.part().describe(picture, features, orientation, &config.descriptors())
+    config.descriptor.part().describe(image, features, orientation, &config.descriptors())
 }

@@ -11,13 +11,13 @@ use opencv::core::{KeyPoint, Point2f, Vector};
 /// How a descriptor's pattern is turned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Orientation {
-    /// Along the picture's axes: the most distinctive, up to about 12° of roll between two pictures.
+    /// Along the image's axes: the most distinctive, up to about 12° of roll between two images.
     Upright,
     /// Along the line from the corner to the centroid of the grey levels about it: for any roll.
     Centroid,
 }
 
-/// Features closer to the picture's edge are not described, px.
+/// Features closer to the image's edge are not described, px.
 pub(super) const EDGE_PX: i32 = 8;
 
 /// What a match must keep to, in the descriptor's own distance.
@@ -47,7 +47,7 @@ pub trait Descriptor: Sync {
     /// A setting out of range, or OpenCV's refusal.
     fn describe(
         &self,
-        picture: &GrayImage,
+        image: &GrayImage,
         features: &[Feature],
         orientation: Orientation,
         config: &DescriptorConfig,
@@ -62,7 +62,7 @@ pub trait Descriptor: Sync {
 
 /// Key points of features for OpenCV, each with the feature's number as its `class_id`.
 pub(super) fn key_points<'a>(
-    picture: &GrayImage,
+    image: &GrayImage,
     features: impl Iterator<Item = (usize, &'a Feature)>,
     (orientation, size_px, octave): (Orientation, f64, i32),
 ) -> opencv::Result<Vector<KeyPoint>> {
@@ -70,7 +70,7 @@ pub(super) fn key_points<'a>(
     for (index, feature) in features {
         let angle_deg = match orientation {
             Orientation::Upright => 0.0,
-            Orientation::Centroid => centroid_angle_deg(picture, &feature.pixel_px),
+            Orientation::Centroid => centroid_angle_deg(image, &feature.pixel_px),
         };
         let point = Point2f::new(feature.pixel_px.x as f32, feature.pixel_px.y as f32);
         key_points.push(KeyPoint::new_point(point, size_px as f32, angle_deg, 0.0, octave, index as i32)?);
@@ -79,11 +79,11 @@ pub(super) fn key_points<'a>(
 }
 
 /// Direction of the centroid of the grey levels in a disc of 15 px, degrees from +u towards +v.
-fn centroid_angle_deg(picture: &GrayImage, pixel_px: &Vector2<f64>) -> f32 {
+fn centroid_angle_deg(image: &GrayImage, pixel_px: &Vector2<f64>) -> f32 {
     const RADIUS: i32 = 15;
     let (u, v) = (pixel_px.x.round() as i32, pixel_px.y.round() as i32);
-    let (width, height) = (picture.width() as i32, picture.height() as i32);
-    let grey = picture.as_raw();
+    let (width, height) = (image.width() as i32, image.height() as i32);
+    let grey = image.as_raw();
     let (mut m10, mut m01) = (0i64, 0i64);
     for dv in -RADIUS..=RADIUS {
         for du in -RADIUS..=RADIUS {

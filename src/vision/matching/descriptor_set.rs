@@ -1,9 +1,9 @@
-//! Descriptors of the features of a picture.
+//! Descriptors of the features of an image.
 
 use opencv::core::{KeyPoint, Mat, Vector};
 use opencv::prelude::*;
 
-/// Descriptors of a picture's features, all of one length: a row of bytes for each feature that has one.
+/// Descriptors of an image's features, all of one length: a row of bytes for each feature that has one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DescriptorSet {
     row_bytes: usize,

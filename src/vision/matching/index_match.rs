@@ -1,11 +1,11 @@
 //! Matches by index.
 
-/// Indices of the same surface point among the features of two pictures.
+/// Indices of the same surface point among the features of two images.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IndexMatch {
-    /// Index in the first picture.
+    /// Index in the first image.
     pub from: usize,
-    /// Index in the second picture.
+    /// Index in the second image.
     pub to: usize,
     /// Distance of the two descriptors in their own measure: bits that differ, or length of the vector between them.
     pub distance: f64,

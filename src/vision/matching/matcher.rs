@@ -11,7 +11,7 @@ use crate::vision::features::Feature;
 use crate::vision::implementation::Implementation;
 use nalgebra::Vector2;
 
-/// Features of one picture with their descriptors.
+/// Features of one image with their descriptors.
 #[derive(Debug, Clone, Copy)]
 pub struct Described<'a> {
     /// The features.
@@ -20,11 +20,11 @@ pub struct Described<'a> {
     pub descriptors: &'a DescriptorSet,
 }
 
-/// A predicted place in the second picture for a pixel of the first; `None` leaves the feature out.
+/// A predicted place in the second image for a pixel of the first; `None` leaves the feature out.
 pub type Predict<'a> = &'a dyn Fn(&Vector2<f64>) -> Option<Vector2<f64>>;
 
-/// Matches two pictures' features anywhere in the picture: each the other's best, both passing the ratio test. Both are
-/// described by the descriptor that is asked for. In order of the first picture's index.
+/// Matches two images' features anywhere in the image: each the other's best, both passing the ratio test. Both are
+/// described by the descriptor that is asked for. In order of the first image's index.
 ///
 /// # Errors
 /// OpenCV's refusal.
@@ -33,7 +33,7 @@ pub fn match_features(from: Described, to: Described, config: &MatcherConfig) ->
 }
 
 /// As [`match_features`], with candidates only within the search radius of where `predict` puts a pixel of the first
-/// picture.
+/// image.
 ///
 /// # Errors
 /// OpenCV's refusal.

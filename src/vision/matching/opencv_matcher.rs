@@ -7,7 +7,7 @@ use opencv::core::{CV_8U, CV_32F, DMatch, Mat, NORM_HAMMING, NORM_L2SQR, Scalar,
 use opencv::features2d::BFMatcher;
 use opencv::prelude::*;
 
-/// Rows that are masked together: a mask of all would grow with the product of both pictures' features.
+/// Rows that are masked together: a mask of all would grow with the product of both images' features.
 const BAND: usize = 256;
 
 /// A query's nearest row, and its distances to this and to the next nearest (infinite where there is none).

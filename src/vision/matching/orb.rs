@@ -5,7 +5,7 @@ use super::descriptor_config::DescriptorConfig;
 use super::descriptor_set::DescriptorSet;
 use crate::vision::error::VisionError;
 use crate::vision::features::Feature;
-use crate::vision::opencv_bridge::picture_mat;
+use crate::vision::opencv_bridge::image_mat;
 use image::GrayImage;
 use opencv::core::{Mat, no_array};
 use opencv::features2d::{ORB, ORB_ScoreType};
@@ -20,7 +20,7 @@ const ROW_BYTES: usize = 32;
 impl Descriptor for Orb {
     fn describe(
         &self,
-        picture: &GrayImage,
+        image: &GrayImage,
         features: &[Feature],
         orientation: Orientation,
         _: &DescriptorConfig,
@@ -28,7 +28,7 @@ impl Descriptor for Orb {
         if features.is_empty() {
             return Ok(DescriptorSet::new(ROW_BYTES));
         }
-        described(picture, features, orientation).map_err(VisionError::opencv("describe features"))
+        described(image, features, orientation).map_err(VisionError::opencv("describe features"))
     }
 
     fn norm(&self) -> DescriptorNorm {
@@ -40,11 +40,11 @@ impl Descriptor for Orb {
     }
 }
 
-fn described(picture: &GrayImage, features: &[Feature], orientation: Orientation) -> opencv::Result<DescriptorSet> {
-    let mut key_points = key_points(picture, features.iter().enumerate(), (orientation, f64::from(PATCH_PX), 0))?;
+fn described(image: &GrayImage, features: &[Feature], orientation: Orientation) -> opencv::Result<DescriptorSet> {
+    let mut key_points = key_points(image, features.iter().enumerate(), (orientation, f64::from(PATCH_PX), 0))?;
     let mut orb = ORB::create(features.len() as i32, 1.2, 1, EDGE_PX, 0, 2, ORB_ScoreType::HARRIS_SCORE, PATCH_PX, 20)?;
     let mut bits = Mat::default();
-    orb.detect_and_compute(&picture_mat(picture)?, &no_array(), &mut key_points, &mut bits, true)?;
+    orb.detect_and_compute(&image_mat(image)?, &no_array(), &mut key_points, &mut bits, true)?;
     DescriptorSet::from_opencv((&key_points, &bits), ROW_BYTES, |row: &[u8], bytes| {
         bytes.extend_from_slice(row);
         true

@@ -5,14 +5,14 @@ use super::descriptor_config::{DescriptorConfig, SiftConfig};
 use super::descriptor_set::DescriptorSet;
 use crate::vision::error::VisionError;
 use crate::vision::features::Feature;
-use crate::vision::opencv_bridge::picture_mat;
+use crate::vision::opencv_bridge::image_mat;
 use image::GrayImage;
 use opencv::core::{Mat, no_array};
 use opencv::features2d::SIFT;
 use opencv::prelude::*;
 
 /// 128 sums of gradients about a feature, eight directions in each of 4×4 cells; their distance is that of vectors whose
-/// length is about 512. Features on a flat patch have none. It holds some 30 bytes a pixel of the picture meanwhile.
+/// length is about 512. Features on a flat patch have none. It holds some 30 bytes a pixel of the image meanwhile.
 pub(super) struct Sift;
 
 const ROW_BYTES: usize = 128;
@@ -26,14 +26,14 @@ const LAST_LAYER: f64 = 5.0;
 impl Descriptor for Sift {
     fn describe(
         &self,
-        picture: &GrayImage,
+        image: &GrayImage,
         features: &[Feature],
         orientation: Orientation,
         config: &DescriptorConfig,
     ) -> Result<DescriptorSet, VisionError> {
         let patch_px = config.sift.patch_px;
         SiftConfig::check_patch_px(patch_px).map_err(|e| e.under("matcher.sift"))?;
-        described(picture, features, orientation, patch_px).map_err(VisionError::opencv("describe features"))
+        described(image, features, orientation, patch_px).map_err(VisionError::opencv("describe features"))
     }
 
     fn norm(&self) -> DescriptorNorm {
@@ -46,20 +46,20 @@ impl Descriptor for Sift {
 }
 
 fn described(
-    picture: &GrayImage,
+    image: &GrayImage,
     features: &[Feature],
     orientation: Orientation,
     patch_px: f64,
 ) -> opencv::Result<DescriptorSet> {
     let size_px = patch_px / SIZES_A_PATCH;
-    let inside = features.iter().enumerate().filter(|(_, feature)| is_inside(picture, feature));
-    let mut key_points = key_points(picture, inside, (orientation, size_px, layer(size_px) << 8))?;
+    let inside = features.iter().enumerate().filter(|(_, feature)| is_inside(image, feature));
+    let mut key_points = key_points(image, inside, (orientation, size_px, layer(size_px) << 8))?;
     if key_points.is_empty() {
         return Ok(DescriptorSet::new(ROW_BYTES));
     }
     let mut sums = Mat::default();
     // Made with OpenCV's defaults alone: what else can be set differs between its versions.
-    SIFT::create_def()?.detect_and_compute(&picture_mat(picture)?, &no_array(), &mut key_points, &mut sums, true)?;
+    SIFT::create_def()?.detect_and_compute(&image_mat(image)?, &no_array(), &mut key_points, &mut sums, true)?;
     DescriptorSet::from_opencv((&key_points, &sums), ROW_BYTES, |row: &[f32], bytes| {
         // OpenCV gives whole numbers up to 255 already.
         bytes.extend(row.iter().map(|sum| *sum as u8));
@@ -67,9 +67,9 @@ fn described(
     })
 }
 
-fn is_inside(picture: &GrayImage, feature: &Feature) -> bool {
+fn is_inside(image: &GrayImage, feature: &Feature) -> bool {
     let clear = |x: f64, side_px: u32| x >= f64::from(EDGE_PX) && x < f64::from(side_px) - f64::from(EDGE_PX);
-    clear(feature.pixel_px.x, picture.width()) && clear(feature.pixel_px.y, picture.height())
+    clear(feature.pixel_px.x, image.width()) && clear(feature.pixel_px.y, image.height())
 }
 
 /// The layer of the first octave whose smoothing goes best with a key point's size: half of it, as in Lowe's detector.

@@ -84,12 +84,12 @@ part! {
 part! {
     /// Localisation errors that vary smoothly over an image of ground or of any scene, besides white noise: polynomials of
     /// third order whose coefficients have the variance `share · over_likeliest` in units of the noise's, with
-    /// `share = smooth_error_share · (1 + growth_by_view v / (1 + v / far_view))` and `v` the squared translation over the
+    /// `share = correlated_error_share · (1 + growth_by_view v / (1 + v / far_view))` and `v` the squared translation over the
     /// distance. Enters `pair/motion.rs` and `pair/covariance/`.
     PairNoise at pair {
         /// Expected variance of the coefficients over the noise's, as residuals show it between images from one place, 0 to 1;
         /// 0 where pixels err by white noise alone, as simulated ones do.
-        smooth_error_share: a_share,
+        correlated_error_share: a_share,
         /// By how many times itself that share grows with `v`, as long as `v` is small, 0 or more: the looks of ground change
         /// with the view.
         growth_by_view: zero_or_more,
@@ -106,7 +106,7 @@ part! {
     BodyNoise at body {
         /// Expected variance of the coefficients over the noise's, as residuals show it, 0 to 1; 0 where pixels err by white
         /// noise alone.
-        smooth_error_share: a_share,
+        correlated_error_share: a_share,
         /// The coefficients' true variance over what residuals show, above 0.
         over_likeliest: above_zero,
     }
@@ -167,7 +167,7 @@ pub struct NoiseModel<T = f64> {
 impl PairNoise {
     /// Expected variance of the coefficients over the noise's, `view` being the squared translation over the distance.
     pub fn share(&self, view: f64) -> f64 {
-        self.smooth_error_share * (1.0 + self.growth_by_view * view / (1.0 + view / self.far_view))
+        self.correlated_error_share * (1.0 + self.growth_by_view * view / (1.0 + view / self.far_view))
     }
 }
 

@@ -1,6 +1,6 @@
 //! On which side of the cameras points lie.
 
-use super::normalized_match::Sight;
+use super::normalized_match::NormalizedMatch;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// How many points with a clear parallax lie in front of both cameras.
@@ -12,9 +12,9 @@ pub(super) struct Cheirality {
 
 impl Cheirality {
     /// Counts the points; those with a parallax below 4σ say nothing, and those ahead of one camera only count against.
-    pub(super) fn of(rotation: UnitQuaternion<f64>, t: &Vector3<f64>, sights: &[Sight]) -> Self {
+    pub(super) fn of(rotation: UnitQuaternion<f64>, t: &Vector3<f64>, normalized: &[NormalizedMatch]) -> Self {
         let mut count = Cheirality { ahead: 0, seen: 0 };
-        for s in sights {
+        for s in normalized {
             let (a, b) = ((rotation * s.first_ray()).normalize(), s.second_ray().normalize());
             let across = a.cross(&b);
             let sine2 = across.norm_squared();

@@ -5,7 +5,7 @@ use crate::vision::noise_model::{BodyNoise, PairNoise};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Rotation between two pictures.
+/// Rotation between two images.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RotationConfig {
@@ -19,11 +19,11 @@ pub struct RotationConfig {
     pub min_inlier_ratio: f64,
     /// Greatest 1σ of the rotation about any axis that is still a determined rotation, rad, above 0 (default 0.02).
     pub max_sigma_rad: f64,
-    /// Greatest rotation between two pictures, rad, above 0 (default 1.0); the twisted solution lies near π.
+    /// Greatest rotation between two images, rad, above 0 (default 1.0); the twisted solution lies near π.
     pub max_angle_rad: f64,
     /// 1σ of a predicted rotation, rad, above 0 (default 0.005).
     pub prior_sigma_rad: f64,
-    /// Errors that vary smoothly over the picture (default: the noise model's).
+    /// Errors that vary smoothly over the image (default: the noise model's).
     pub noise: PairNoise,
     /// Seed of the random samples, 0 to 2⁶³-1 (default 1).
     pub seed: u64,
@@ -58,9 +58,9 @@ pub struct FixedCenterConfig {
     pub rate_gate_rad_s: f64,
     /// …or this fraction of the median, whichever is greater, above 0 (default 0.2).
     pub rate_gate_ratio: f64,
-    /// Errors that vary smoothly over the picture (default: the noise model's): the light moves over a body that turns.
+    /// Errors that vary smoothly over the image (default: the noise model's): the light moves over a body that turns.
     pub noise: BodyNoise,
-    /// Whether a patch's stretch from picture to picture is refined by its own grey levels (default true): a body's surface
+    /// Whether a patch's stretch from image to image is refined by its own grey levels (default true): a body's surface
     /// turns away within a few matches, and patches that are askew err alike.
     pub stretch_patches: bool,
 }

@@ -1,4 +1,4 @@
-//! Pixels that correspond in two pictures.
+//! Pixels that correspond in two images.
 
 use nalgebra::Vector2;
 

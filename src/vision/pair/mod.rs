@@ -1,4 +1,4 @@
-//! The rotation of a picture pair: models, robust fit, two-fold ambiguities, covariance.
+//! The rotation of an image pair: models, robust fit, two-fold ambiguities, covariance.
 
 mod cheirality;
 mod config;

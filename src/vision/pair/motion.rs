@@ -2,8 +2,8 @@
 
 use super::covariance::{Size, refine};
 use super::models::General;
-use super::normalized_match::Sight;
-use super::plane::GroundFit;
+use super::normalized_match::NormalizedMatch;
+use super::plane::ReliefPlaneFit;
 use crate::observations::RotationModel;
 use crate::stats::upper_median;
 use crate::vision::noise_model::PairNoise;
@@ -30,13 +30,13 @@ impl Motion {
     /// Relief is not white noise about a plane: hills are smooth. Where its parallax shows, each point's depth is better
     /// left free, and what the plane would say is not missed. Where it does not show, depths left free would take noise
     /// for parallax.
-    pub(super) fn of(fit: &GroundFit, sights: &[Sight], noise: &PairNoise) -> Option<Motion> {
+    pub(super) fn of(fit: &ReliefPlaneFit, normalized: &[NormalizedMatch], noise: &PairNoise) -> Option<Motion> {
         let direction = Unit::try_new(fit.ground.translation, 1e-12);
-        let free = direction.filter(|_| relief_over_noise(fit, sights) > SHOWING);
-        free.and_then(|direction| with_free_relief(fit, direction, (sights, noise))).or_else(|| {
+        let free = direction.filter(|_| relief_over_noise(fit, normalized) > SHOWING);
+        free.and_then(|direction| with_free_relief(fit, direction, (normalized, noise))).or_else(|| {
             Some(Motion {
                 rotation: fit.ground.rotation,
-                covariance_rad2: fit.rotation_covariance(sights)?,
+                covariance_rad2: fit.rotation_covariance(normalized)?,
                 direction,
                 normal: fit.ground.normal,
                 inliers: fit.inliers.clone(),
@@ -48,14 +48,14 @@ impl Motion {
 }
 
 /// Median ratio of the variances of the relief's parallax and of the noise, times the matches.
-fn relief_over_noise(fit: &GroundFit, sights: &[Sight]) -> f64 {
+fn relief_over_noise(fit: &ReliefPlaneFit, normalized: &[NormalizedMatch]) -> f64 {
     let (ground, homography) = (&fit.ground, fit.ground.homography());
-    let ratio = |s: &Sight| {
+    let ratio = |s: &NormalizedMatch| {
         let seen = ground.predict(&homography, s)?;
         let g = seen.by_relief;
         Some(g.dot(&(seen.nominal.try_inverse()? * g)) * ground.relief_variance / ground.noise_variance)
     };
-    let mut ratios: Vec<f64> = fit.agreeing(sights).iter().filter_map(ratio).collect();
+    let mut ratios: Vec<f64> = fit.agreeing(normalized).iter().filter_map(ratio).collect();
     let count = ratios.len() as f64;
     upper_median(&mut ratios).unwrap_or(0.0) * count
 }
@@ -63,12 +63,12 @@ fn relief_over_noise(fit: &GroundFit, sights: &[Sight]) -> f64 {
 /// The same motion refined on the epipolar constraint, over the matches that agree with the ground: what lies far along
 /// an epipolar line has great leverage on it, and the ground knows how far relief goes.
 fn with_free_relief(
-    fit: &GroundFit,
+    fit: &ReliefPlaneFit,
     direction: Unit<Vector3<f64>>,
-    (sights, noise): (&[Sight], &PairNoise),
+    (normalized, noise): (&[NormalizedMatch], &PairNoise),
 ) -> Option<Motion> {
     const WIDEST_SIGMA: f64 = 4.0;
-    let inside = fit.agreeing(sights);
+    let inside = fit.agreeing(normalized);
     let start = General { rotation: fit.ground.rotation, direction };
     let refined = super::robust_fit::fit(start, &inside, WIDEST_SIGMA * fit.scale());
     let mut flags = refined.inliers.iter();

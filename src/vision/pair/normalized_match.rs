@@ -4,33 +4,33 @@ use super::correspondence::MatchedPair;
 use crate::geometry::Camera;
 use nalgebra::{Matrix2, Vector2, Vector3};
 
-/// One point seen in two pictures, in ideal (undistorted) coordinates (x/z, y/z), each with its covariance.
+/// One point seen in two images, in ideal (undistorted) coordinates (x/z, y/z), each with its covariance.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sight {
+pub(super) struct NormalizedMatch {
     pub(super) from: Vector2<f64>,
     pub(super) to: Vector2<f64>,
     pub(super) from_covariance: Matrix2<f64>,
     pub(super) to_covariance: Matrix2<f64>,
 }
 
-impl Sight {
-    /// The first picture's ray (x/z, y/z, 1).
+impl NormalizedMatch {
+    /// The first image's ray (x/z, y/z, 1).
     pub(super) fn first_ray(&self) -> Vector3<f64> {
         self.from.push(1.0)
     }
 
-    /// The second picture's ray (x/z, y/z, 1).
+    /// The second image's ray (x/z, y/z, 1).
     pub(super) fn second_ray(&self) -> Vector3<f64> {
         self.to.push(1.0)
     }
 }
 
-/// Pixels of both pictures in ideal coordinates; `None` for a match that the distortion model cannot undo.
-pub(super) fn sights(pair: &MatchedPair, sigma_px: &[f64], camera: &Camera) -> Vec<Option<Sight>> {
+/// Pixels of both images in ideal coordinates; `None` for a match that the distortion model cannot undo.
+pub(super) fn normalized(pair: &MatchedPair, sigma_px: &[f64], camera: &Camera) -> Vec<Option<NormalizedMatch>> {
     let one = |((from_px, to_px), sigma_px): ((&Vector2<f64>, &Vector2<f64>), &f64)| {
         let (from, from_covariance) = ideal(from_px, *sigma_px, camera)?;
         let (to, to_covariance) = ideal(to_px, *sigma_px, camera)?;
-        Some(Sight { from, to, from_covariance, to_covariance })
+        Some(NormalizedMatch { from, to, from_covariance, to_covariance })
     };
     pair.from_px.iter().zip(&pair.to_px).zip(sigma_px).map(one).collect()
 }

@@ -5,7 +5,7 @@
 //! before any refinement.
 
 use super::models::Plane;
-use super::normalized_match::Sight;
+use super::normalized_match::NormalizedMatch;
 use super::residual::{Relation, residual};
 use super::robust_fit::{Loss, descend};
 use crate::stats::upper_median;
@@ -15,17 +15,17 @@ use nalgebra::Matrix3;
 const PARALLAX_LIMIT: f64 = 6.0;
 
 /// Which matches have a parallax, against the plane that fits best, like that of the others. `widest` is the inlier
-/// threshold in units of the nominal σ. Without a plane or too few matches, all are plausible.
-pub(super) fn plausible(
-    sights: &[Sight],
+/// threshold in units of the nominal σ. Without a plane or too few matches, all are passes_parallax_gate.
+pub(super) fn passes_parallax_gate(
+    normalized: &[NormalizedMatch],
     planes: &[Plane],
     essential: Option<&Matrix3<f64>>,
     widest: f64,
 ) -> Vec<bool> {
-    let on_line = |s: &&Sight| essential.is_none_or(|e| residual(Relation::Epipolar, e, s).x.abs() < widest);
-    let agreeing: Vec<Sight> = sights.iter().filter(on_line).copied().collect();
+    let on_line = |s: &&NormalizedMatch| essential.is_none_or(|e| residual(Relation::Epipolar, e, s).x.abs() < widest);
+    let agreeing: Vec<NormalizedMatch> = normalized.iter().filter(on_line).copied().collect();
     let Some(start) = planes.first().filter(|_| agreeing.len() >= 12) else {
-        return vec![true; sights.len()];
+        return vec![true; normalized.len()];
     };
     let mut plane = *start;
     let mut size = median_parallax(&plane, &agreeing);
@@ -35,15 +35,15 @@ pub(super) fn plausible(
     }
     let limit = (PARALLAX_LIMIT * size).max(widest);
     let matrix = matrix_of(&plane);
-    sights.iter().map(|s| residual(Relation::Transfer, &matrix, s).norm() < limit).collect()
+    normalized.iter().map(|s| residual(Relation::Transfer, &matrix, s).norm() < limit).collect()
 }
 
 fn matrix_of(plane: &Plane) -> Matrix3<f64> {
     plane.rotation.to_rotation_matrix().into_inner() + plane.translation * plane.normal.transpose()
 }
 
-fn median_parallax(plane: &Plane, sights: &[Sight]) -> f64 {
+fn median_parallax(plane: &Plane, normalized: &[NormalizedMatch]) -> f64 {
     let matrix = matrix_of(plane);
-    let mut sizes: Vec<f64> = sights.iter().map(|s| residual(Relation::Transfer, &matrix, s).norm()).collect();
+    let mut sizes: Vec<f64> = normalized.iter().map(|s| residual(Relation::Transfer, &matrix, s).norm()).collect();
     upper_median(&mut sizes).expect("a dozen matches at least")
 }

@@ -2,7 +2,7 @@
 
 use super::config::RotationConfig;
 use super::models::{KnownPlane, Plane, Turn};
-use super::normalized_match::Sight;
+use super::normalized_match::NormalizedMatch;
 use super::robust_fit::PairFit;
 use super::solution::PairSolution;
 use crate::geometry::so3;
@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
 /// A pure rotation: its covariance allows for an unseen translation over ground ahead; no rotation at all is no motion.
 pub(super) fn judge_turn(
     turn: &PairFit<3, Turn>,
-    sights: &[Sight],
+    normalized: &[NormalizedMatch],
     config: &RotationConfig,
 ) -> Result<PairSolution, PairStatus> {
     const CHI2_3_AT_999: f64 = 16.27;
@@ -20,14 +20,14 @@ pub(super) fn judge_turn(
     let alone = turn.covariance.ok_or(PairStatus::Degenerate)?;
     let angle = so3::log(&turn.model.0);
     let surprise = alone.try_inverse().map_or(0.0, |information| angle.dot(&(information * angle)));
-    let still = super::robust_fit::robust_scale::<3, _>(&Turn(UnitQuaternion::identity()), sights, 1e6);
+    let still = super::robust_fit::robust_scale::<3, _>(&Turn(UnitQuaternion::identity()), normalized, 1e6);
     if surprise < CHI2_3_AT_999 || still < STILL_PX_SIGMA {
         return Err(PairStatus::NoMotion);
     }
-    let ahead = sights.iter().map(|s| s.first_ray().normalize()).sum::<Vector3<f64>>();
+    let ahead = normalized.iter().map(|s| s.first_ray().normalize()).sum::<Vector3<f64>>();
     let plane = Plane { rotation: turn.model.0, translation: Vector3::zeros(), normal: Unit::new_normalize(ahead) };
     let loss = super::robust_fit::Loss::Truncated(3.45 * turn.scale);
-    let normal = super::robust_fit::normal_equations(&KnownPlane(plane), sights, loss);
+    let normal = super::robust_fit::normal_equations(&KnownPlane(plane), normalized, loss);
     let covariance = normal.information.try_inverse().ok_or(PairStatus::Degenerate)? * turn.scale.powi(2);
     let covariance: Matrix3<f64> = covariance.fixed_view::<3, 3>(0, 0).into_owned();
     if !super::solution::is_determined(&covariance, config) {

@@ -1,9 +1,9 @@
-//! The rotation between two pictures of any scene: a body, ground with or without relief, or a pure turn.
+//! The rotation between two images of any scene: a body, ground with or without relief, or a pure turn.
 
 use super::config::RotationConfig;
-use super::hypotheses::{Fits, Ranked};
+use super::hypotheses::{Hypotheses, RankedHypothesis};
 use super::motion::Motion;
-use super::normalized_match::{Sight, sights};
+use super::normalized_match::{NormalizedMatch, normalized};
 use super::pure_rotation::judge_turn;
 use super::solution::{PairHints, PairSolution, PixelMatches, is_determined};
 use super::usac;
@@ -13,7 +13,7 @@ use crate::stats::upper_median;
 use crate::vision::error::VisionError;
 use nalgebra::Matrix3;
 
-/// Rotation between two pictures from matched pixels.
+/// Rotation between two images from matched pixels.
 ///
 /// Candidates come from USAC's essential matrix and homography. Each is refined to the greatest likelihood of a plane with
 /// relief about it, which holds both: it becomes the epipolar constraint where relief shows and the homography where it
@@ -27,8 +27,8 @@ pub fn relative_rotation(
     hints: &PairHints,
     config: &RotationConfig,
 ) -> Result<PairSolution, VisionError> {
-    let all = sights(matches.pair, matches.sigma_px, camera);
-    let usable: Vec<Sight> = all.iter().flatten().copied().collect();
+    let all = normalized(matches.pair, matches.sigma_px, camera);
+    let usable: Vec<NormalizedMatch> = all.iter().flatten().copied().collect();
     if usable.len() < config.min_matches {
         return Ok(PairSolution::failed(PairStatus::FewMatches, all.len()));
     }
@@ -39,7 +39,7 @@ pub fn relative_rotation(
     }
     let essential = usac::essential(&usable, focal_px, config)?;
     let widest = config.threshold_px * 2.0 / upper_median(&mut matches.sigma_px.to_vec()).unwrap_or(1.0);
-    let fits = Fits::new(&usable, widest, (homography.as_ref(), essential.as_ref()), (hints, config));
+    let fits = Hypotheses::new(&usable, widest, (homography.as_ref(), essential.as_ref()), (hints, config));
     let mut solution = judge(&fits, (&usable, widest), (hints, config));
     solution.inliers = spread(&solution.inliers, all.iter().map(Option::is_some));
     Ok(solution)
@@ -52,35 +52,35 @@ fn spread(flags: &[bool], chosen: impl Iterator<Item = bool>) -> Vec<bool> {
 }
 
 /// Whether most matches follow a homography that turns the scene inside out.
-fn is_mirror_image(h: &Matrix3<f64>, sights: &[Sight], focal_px: f64, config: &RotationConfig) -> bool {
-    let agrees = |s: &&Sight| {
+fn is_mirror_image(h: &Matrix3<f64>, normalized: &[NormalizedMatch], focal_px: f64, config: &RotationConfig) -> bool {
+    let agrees = |s: &&NormalizedMatch| {
         let p = h * s.first_ray();
         p.z > 0.0 && (p.xy() / p.z - s.to).norm() * focal_px < 2.0 * config.threshold_px
     };
-    h.determinant() < 0.0 && sights.iter().filter(agrees).count() * 3 > sights.len()
+    h.determinant() < 0.0 && normalized.iter().filter(agrees).count() * 3 > normalized.len()
 }
 
 /// Chooses a motion, then holds it against every gate.
 fn judge(
-    fits: &Fits,
-    (sights, widest): (&[Sight], f64),
+    fits: &Hypotheses,
+    (normalized, widest): (&[NormalizedMatch], f64),
     (hints, config): (&PairHints, &RotationConfig),
 ) -> PairSolution {
-    let enough = (config.min_inlier_ratio * sights.len() as f64).max(config.min_matches as f64) as usize;
-    if let Some(turn) = fits.turn_alone((sights, widest), enough) {
+    let enough = (config.min_inlier_ratio * normalized.len() as f64).max(config.min_matches as f64) as usize;
+    if let Some(turn) = fits.turn_alone((normalized, widest), enough) {
         let refused = |status| PairSolution { inliers: turn.inliers.clone(), ..PairSolution::failed(status, 0) };
-        return judge_turn(&turn, sights, config).unwrap_or_else(refused);
+        return judge_turn(&turn, normalized, config).unwrap_or_else(refused);
     }
     let Some(best) = fits.grounds.first() else {
-        return PairSolution::failed(PairStatus::Degenerate, sights.len());
+        return PairSolution::failed(PairStatus::Degenerate, normalized.len());
     };
     let refused =
-        |status| PairSolution { inliers: best.fit.inliers.clone(), ..PairSolution::failed(status, sights.len()) };
+        |status| PairSolution { inliers: best.fit.inliers.clone(), ..PairSolution::failed(status, normalized.len()) };
     if best.fit.inlier_count() < enough {
         return refused(PairStatus::Rejected);
     }
-    let motion = match choose(fits, sights, hints, config) {
-        Ok(chosen) => Motion::of(&chosen.fit, sights, &config.noise),
+    let motion = match choose(fits, normalized, hints, config) {
+        Ok(chosen) => Motion::of(&chosen.fit, normalized, &config.noise),
         Err(status) => return refused(status),
     };
     let Some(motion) = motion.filter(|m| is_determined(&m.covariance_rad2, config)) else {
@@ -101,28 +101,28 @@ fn judge(
 /// The likeliest motion, a prediction counting as a measurement; an error where nothing tells rivals apart or all
 /// contradict the prediction.
 fn choose<'a>(
-    fits: &'a Fits,
-    sights: &[Sight],
+    fits: &'a Hypotheses,
+    normalized: &[NormalizedMatch],
     hints: &PairHints,
     config: &RotationConfig,
-) -> Result<&'a Ranked, PairStatus> {
+) -> Result<&'a RankedHypothesis, PairStatus> {
     if let Some(predicted) = hints.camera_to_from_camera_from {
-        let off_rad = |r: &Ranked| r.fit.ground.rotation.angle_to(&predicted);
-        let cost = |r: &Ranked| fits.surprise(r, sights) + (off_rad(r) / config.prior_sigma_rad).powi(2);
+        let off_rad = |r: &RankedHypothesis| r.fit.ground.rotation.angle_to(&predicted);
+        let cost = |r: &RankedHypothesis| fits.surprise(r, normalized) + (off_rad(r) / config.prior_sigma_rad).powi(2);
         let chosen = fits.grounds.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).ok_or(PairStatus::Degenerate)?;
-        let own = chosen.fit.rotation_covariance(sights).map_or(0.0, |c| c.trace());
+        let own = chosen.fit.rotation_covariance(normalized).map_or(0.0, |c| c.trace());
         let near = off_rad(chosen) < 5.0 * (config.prior_sigma_rad.powi(2) + own).sqrt();
         return if near { Ok(chosen) } else { Err(PairStatus::Rejected) };
     }
-    let mut all = fits.rivals(sights);
+    let mut all = fits.rivals(normalized);
     if all.len() == 1 {
         return Ok(all[0]);
     }
     let normal = hints.normal_in_from.ok_or(PairStatus::Degenerate)?;
-    let off_rad = |r: &Ranked| r.fit.ground.normal.angle(&normal);
+    let off_rad = |r: &RankedHypothesis| r.fit.ground.normal.angle(&normal);
     all.sort_by(|a, b| off_rad(a).total_cmp(&off_rad(b)));
     let (best, next) = (off_rad(all[0]), off_rad(all[1]));
-    // The ground's slope changes little from picture to picture: the nearer normal must be near, and clearly nearer.
+    // The ground's slope changes little from image to image: the nearer normal must be near, and clearly nearer.
     // A decision between two motions: the angles enter no covariance.
     let clear = best < 0.15 && next > 2.0 * best && next > best + 0.1;
     if clear { Ok(all[0]) } else { Err(PairStatus::Degenerate) }

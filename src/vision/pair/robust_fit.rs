@@ -1,6 +1,6 @@
-//! Robust least squares over the matches of a picture pair, for any model that is a 3×3 matrix with derivatives.
+//! Robust least squares over the matches of an image pair, for any model that is a 3×3 matrix with derivatives.
 
-use super::normalized_match::Sight;
+use super::normalized_match::NormalizedMatch;
 use super::residual::{PairModel, Relation, linearized, residual};
 use crate::stats::{
     Damping, LeastSquares, LeastSquaresOptions, Minimum, NORMAL_MEDIAN, NORMAL_MEDIAN_2D, NormalEquations, Steps,
@@ -34,13 +34,13 @@ impl Loss {
 /// Normal equations of all matches at a model.
 pub(super) fn normal_equations<const N: usize, M: PairModel<N>>(
     model: &M,
-    sights: &[Sight],
+    normalized: &[NormalizedMatch],
     loss: Loss,
 ) -> NormalEquations<Const<N>> {
     let linear = model.matrix();
     let mut normal = NormalEquations { information: SMatrix::zeros(), right_side: SVector::zeros(), cost: 0.0 };
-    for sight in sights {
-        let (r, jacobian, gradient) = linearized(M::RELATION, &linear, sight);
+    for matched in normalized {
+        let (r, jacobian, gradient) = linearized(M::RELATION, &linear, matched);
         let (cost, weight) = loss.cost_and_weight(r.norm_squared());
         normal.cost += cost;
         if weight > 0.0 {
@@ -52,14 +52,14 @@ pub(super) fn normal_equations<const N: usize, M: PairModel<N>>(
 }
 
 /// Robust cost of a model.
-pub(super) fn cost<const N: usize, M: PairModel<N>>(model: &M, sights: &[Sight], loss: Loss) -> f64 {
+pub(super) fn cost<const N: usize, M: PairModel<N>>(model: &M, normalized: &[NormalizedMatch], loss: Loss) -> f64 {
     let matrix = model.matrix().0;
-    sights.iter().map(|s| loss.cost_and_weight(residual(M::RELATION, &matrix, s).norm_squared()).0).sum()
+    normalized.iter().map(|s| loss.cost_and_weight(residual(M::RELATION, &matrix, s).norm_squared()).0).sum()
 }
 
 /// Matches that pull at a model.
 struct Pull<'a, const N: usize, M> {
-    sights: &'a [Sight],
+    normalized: &'a [NormalizedMatch],
     loss: Loss,
     model: PhantomData<M>,
 }
@@ -69,11 +69,11 @@ impl<const N: usize, M: PairModel<N>> LeastSquares for Pull<'_, N, M> {
     type State = M;
 
     fn normal_equations(&self, model: &M) -> NormalEquations<Const<N>> {
-        normal_equations(model, self.sights, self.loss)
+        normal_equations(model, self.normalized, self.loss)
     }
 
     fn cost(&self, model: &M) -> f64 {
-        cost(model, self.sights, self.loss)
+        cost(model, self.normalized, self.loss)
     }
 
     fn moved(&self, model: &M, step: &SVector<f64, N>) -> Option<M> {
@@ -90,7 +90,7 @@ impl<const N: usize, M: PairModel<N>> LeastSquares for Pull<'_, N, M> {
 /// Levenberg-Marquardt from `start`.
 pub(super) fn descend<const N: usize, M: PairModel<N>>(
     start: M,
-    sights: &[Sight],
+    normalized: &[NormalizedMatch],
     loss: Loss,
     iterations: usize,
 ) -> Minimum<M, Const<N>> {
@@ -101,7 +101,7 @@ pub(super) fn descend<const N: usize, M: PairModel<N>>(
         least_drop_share: 1e-7,
         least_drop: 0.0,
     };
-    minimize(&Pull { sights, loss, model: PhantomData }, start, &options)
+    minimize(&Pull { normalized, loss, model: PhantomData }, start, &options)
 }
 
 /// A model fitted to its inliers, with the noise that it found.
@@ -123,8 +123,8 @@ impl<const N: usize, M> PairFit<N, M> {
     }
 
     /// The matches that agree.
-    pub(super) fn agreeing(&self, sights: &[Sight]) -> Vec<Sight> {
-        sights.iter().zip(&self.inliers).filter(|(_, inlier)| **inlier).map(|(s, _)| *s).collect()
+    pub(super) fn agreeing(&self, normalized: &[NormalizedMatch]) -> Vec<NormalizedMatch> {
+        normalized.iter().zip(&self.inliers).filter(|(_, inlier)| **inlier).map(|(s, _)| *s).collect()
     }
 }
 
@@ -140,30 +140,38 @@ fn median_ratio(relation: Relation) -> f64 {
 
 /// Refines `start` on the matches that agree with it, estimating their noise on the way: Cauchy, then least squares on
 /// the inliers.
-pub(super) fn fit<const N: usize, M: PairModel<N>>(start: M, sights: &[Sight], widest: f64) -> PairFit<N, M> {
+pub(super) fn fit<const N: usize, M: PairModel<N>>(
+    start: M,
+    normalized: &[NormalizedMatch],
+    widest: f64,
+) -> PairFit<N, M> {
     let mut model = start;
-    let mut scale = robust_scale::<N, M>(&model, sights, widest);
+    let mut scale = robust_scale::<N, M>(&model, normalized, widest);
     for round in 0..5 {
         let loss = match round {
             0 => Loss::Cauchy(1.5 * scale),
             _ => Loss::Truncated(gate_sigma(M::RELATION) * scale),
         };
-        model = descend(model, sights, loss, 12).state;
-        let next = robust_scale::<N, M>(&model, sights, gate_sigma(M::RELATION) * scale * 1.2);
+        model = descend(model, normalized, loss, 12).state;
+        let next = robust_scale::<N, M>(&model, normalized, gate_sigma(M::RELATION) * scale * 1.2);
         let settled = round >= 2 && (next / scale - 1.0).abs() < 0.02;
         scale = next;
         if settled {
             break;
         }
     }
-    finish(model, sights, scale)
+    finish(model, normalized, scale)
 }
 
 /// The residuals' robust standard deviation in units of their nominal σ, over those below `widest`.
-pub(super) fn robust_scale<const N: usize, M: PairModel<N>>(model: &M, sights: &[Sight], widest: f64) -> f64 {
+pub(super) fn robust_scale<const N: usize, M: PairModel<N>>(
+    model: &M,
+    normalized: &[NormalizedMatch],
+    widest: f64,
+) -> f64 {
     let matrix = model.matrix().0;
     let mut sizes: Vec<f64> =
-        sights.iter().map(|s| residual(M::RELATION, &matrix, s).norm()).filter(|r| *r < widest).collect();
+        normalized.iter().map(|s| residual(M::RELATION, &matrix, s).norm()).filter(|r| *r < widest).collect();
     if sizes.len() < 8 {
         return widest / gate_sigma(M::RELATION);
     }
@@ -177,7 +185,7 @@ pub(super) fn robust_scale<const N: usize, M: PairModel<N>>(model: &M, sights: &
 /// information (Kanatani 1996, the bias of the moment matrix). The second derivative knows better.
 pub(super) fn observed_information<const N: usize, M: PairModel<N>>(
     model: &M,
-    sights: &[Sight],
+    normalized: &[NormalizedMatch],
     loss: Loss,
 ) -> SMatrix<f64, N, N> {
     const STEP: f64 = 1e-6;
@@ -185,18 +193,19 @@ pub(super) fn observed_information<const N: usize, M: PairModel<N>>(
     for j in 0..N {
         let mut step = SVector::<f64, N>::zeros();
         step[j] = STEP;
-        let ahead = normal_equations(&model.moved(&step), sights, loss).right_side;
-        let behind = normal_equations(&model.moved(&-step), sights, loss).right_side;
+        let ahead = normal_equations(&model.moved(&step), normalized, loss).right_side;
+        let behind = normal_equations(&model.moved(&-step), normalized, loss).right_side;
         information.set_column(j, &((behind - ahead) / (2.0 * STEP)));
     }
     symmetric(&information)
 }
 
-fn finish<const N: usize, M: PairModel<N>>(model: M, sights: &[Sight], scale: f64) -> PairFit<N, M> {
+fn finish<const N: usize, M: PairModel<N>>(model: M, normalized: &[NormalizedMatch], scale: f64) -> PairFit<N, M> {
     let gate = gate_sigma(M::RELATION) * scale;
     let matrix = model.matrix().0;
-    let inliers: Vec<bool> = sights.iter().map(|s| residual(M::RELATION, &matrix, s).norm() < gate).collect();
-    let agreeing: Vec<Sight> = sights.iter().zip(&inliers).filter(|(_, inlier)| **inlier).map(|(s, _)| *s).collect();
+    let inliers: Vec<bool> = normalized.iter().map(|s| residual(M::RELATION, &matrix, s).norm() < gate).collect();
+    let agreeing: Vec<NormalizedMatch> =
+        normalized.iter().zip(&inliers).filter(|(_, inlier)| **inlier).map(|(s, _)| *s).collect();
     let information = observed_information(&model, &agreeing, Loss::Truncated(f64::INFINITY));
     let rows = if M::RELATION == Relation::Epipolar { 1 } else { 2 };
     let inside: f64 = agreeing.iter().map(|s| residual(M::RELATION, &matrix, s).norm_squared()).sum();

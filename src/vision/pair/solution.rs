@@ -5,7 +5,7 @@ use super::correspondence::MatchedPair;
 use crate::observations::{PairStatus, RotationModel};
 use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
 
-/// What two pictures say about the motion between them.
+/// What two images say about the motion between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairSolution {
     /// Rotation from the first camera's axes to the second's; identity where the status is not ok.

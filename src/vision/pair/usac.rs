@@ -2,7 +2,7 @@
 
 use super::config::RotationConfig;
 use super::models::{General, Plane};
-use super::normalized_match::Sight;
+use super::normalized_match::NormalizedMatch;
 use crate::vision::error::VisionError;
 use crate::vision::opencv_bridge::{mat_from, matrix_from, points, vector_from};
 use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
@@ -30,13 +30,14 @@ fn parameters(config: &RotationConfig, threshold: f64) -> UsacParams {
 
 /// Essential matrix of the matches in ideal coordinates; `None` where none was found. `focal_px` scales the threshold.
 pub(super) fn essential(
-    sights: &[Sight],
+    normalized: &[NormalizedMatch],
     focal_px: f64,
     config: &RotationConfig,
 ) -> Result<Option<Matrix3<f64>>, VisionError> {
     let camera = mat_from(&Matrix3::new(focal_px, 0.0, 0.0, 0.0, focal_px, 0.0, 0.0, 0.0, 1.0))
         .map_err(VisionError::opencv("make a camera matrix"))?;
-    let (from, to) = (points(sights.iter().map(|s| s.from * focal_px)), points(sights.iter().map(|s| s.to * focal_px)));
+    let (from, to) =
+        (points(normalized.iter().map(|s| s.from * focal_px)), points(normalized.iter().map(|s| s.to * focal_px)));
     let mut mask = Mat::default();
     let parameters = parameters(config, config.threshold_px);
     // OpenCV throws where no sample gives a model: that is an outcome, not an error.
@@ -46,8 +47,13 @@ pub(super) fn essential(
 
 /// Homography of the matches in ideal coordinates, scaled so that its middle singular value is 1 and points stay in
 /// front; `None` where none was found.
-pub(super) fn homography(sights: &[Sight], focal_px: f64, config: &RotationConfig) -> Option<Matrix3<f64>> {
-    let (from, to) = (points(sights.iter().map(|s| s.from * focal_px)), points(sights.iter().map(|s| s.to * focal_px)));
+pub(super) fn homography(
+    normalized: &[NormalizedMatch],
+    focal_px: f64,
+    config: &RotationConfig,
+) -> Option<Matrix3<f64>> {
+    let (from, to) =
+        (points(normalized.iter().map(|s| s.from * focal_px)), points(normalized.iter().map(|s| s.to * focal_px)));
     let mut mask = Mat::default();
     let found = find_homography_1(&from, &to, &mut mask, parameters(config, config.threshold_px)).ok()?;
     let scale = Matrix3::from_diagonal(&Vector3::new(focal_px, focal_px, 1.0));
@@ -55,8 +61,8 @@ pub(super) fn homography(sights: &[Sight], focal_px: f64, config: &RotationConfi
     let mut singular: Vec<f64> = h.singular_values().iter().copied().collect();
     singular.sort_by(f64::total_cmp);
     let h = h / singular[1];
-    let ahead = sights.iter().filter(|s| s.second_ray().dot(&(h * s.first_ray())) > 0.0).count();
-    Some(if 2 * ahead < sights.len() { -h } else { h })
+    let ahead = normalized.iter().filter(|s| s.second_ray().dot(&(h * s.first_ray())) > 0.0).count();
+    Some(if 2 * ahead < normalized.len() { -h } else { h })
 }
 
 /// The planes and motions that a homography stands for (at most four, two of them in front of the camera).

@@ -1,11 +1,11 @@
-//! How a patch is stretched from one picture to the next, by its own grey levels.
+//! How a patch is stretched from one image to the next, by its own grey levels.
 //!
 //! The matches about a point give the stretch of the ground at large. On a body, whose surface turns away within a few
 //! matches, a patch warped by that is a little askew, and an askew patch settles a little beside its point: by hundredths
 //! of a pixel, but alike wherever the surface curves alike, which no number of matches averages out. So the affine map is
 //! refined with the patch itself (Shi and Tomasi 1994), held near what the matches say.
 
-use super::alignment::{LEAST_VARIANCE_DN2, Refined, covariance_px2, refine_by_patch};
+use super::alignment::{AlignedPatch, LEAST_VARIANCE_DN2, covariance_px2, refine_by_patch};
 use super::config::KltConfig;
 use super::local_affine::Affine;
 use super::sampling::{dot, halved_difference, sample_square, sample_warped, sum};
@@ -30,23 +30,23 @@ const ROUNDS: usize = 2;
 /// Aligns a patch as [`refine_by_patch`] does, then with its own stretch and a ramp of light as unknowns too; returns the
 /// stretch as well. As the matches stretch it, where its own stretch makes the patch no more alike.
 pub fn refine_with_stretch(
-    pictures: (&GrayImage, &GrayImage),
+    images: (&GrayImage, &GrayImage),
     old_px: &Vector2<f64>,
     affine: &Affine,
     config: &KltConfig,
-) -> Option<(Refined, Matrix2<f64>)> {
-    let mut refined = refine_by_patch(pictures, old_px, affine, config)?;
+) -> Option<(AlignedPatch, Matrix2<f64>)> {
+    let mut refined = refine_by_patch(images, old_px, affine, config)?;
     let mut linear = affine.linear;
     for _ in 0..ROUNDS {
         let places = (old_px, &refined.pixel_px);
-        let Some(better) = better_fit(pictures, places, &linear, config) else { break };
+        let Some(better) = better_fit(images, places, &linear, config) else { break };
         let start = Affine::about(old_px, &refined.pixel_px, better.linear);
-        match refine_by_patch(pictures, old_px, &start, config) {
+        match refine_by_patch(images, old_px, &start, config) {
             Some(again) if again.correlation >= refined.correlation => (refined, linear) = (again, better.linear),
             _ => break,
         }
     }
-    if let Some(better) = better_fit(pictures, (old_px, &refined.pixel_px), &linear, config) {
+    if let Some(better) = better_fit(images, (old_px, &refined.pixel_px), &linear, config) {
         refined.pixel_px += better.shift_px;
         refined.covariance_px2 = better.covariance_px2;
     }
@@ -143,27 +143,27 @@ mod tests {
         (1..9).map(|k| wave(f64::from(k))).sum::<f64>() * 12.0 + 128.0
     }
 
-    fn picture(at: impl Fn(Vector2<f64>) -> f64) -> GrayImage {
+    fn image(at: impl Fn(Vector2<f64>) -> f64) -> GrayImage {
         GrayImage::from_fn(96, 96, |u, v| image::Luma([at(Vector2::new(f64::from(u), f64::from(v))).round() as u8]))
     }
 
-    /// Old and new picture of a surface that is stretched by `true_linear` about its middle, with a ramp of light.
-    fn pictures(true_linear: &Matrix2<f64>) -> (GrayImage, GrayImage) {
+    /// Old and new image of a surface that is stretched by `true_linear` about its middle, with a ramp of light.
+    fn images(true_linear: &Matrix2<f64>) -> (GrayImage, GrayImage) {
         let middle = Vector2::new(48.0, 48.0);
         let old_from_new = true_linear.try_inverse().expect("regular");
-        (picture(grey), picture(|p| grey(middle + old_from_new * (p - middle)) + 0.2 * (p.x - 48.0)))
+        (image(grey), image(|p| grey(middle + old_from_new * (p - middle)) + 0.2 * (p.x - 48.0)))
     }
 
     #[test]
     fn the_stretch_is_found_from_a_wrong_one() {
         let (true_linear, middle) = (Matrix2::new(0.97, 0.05, -0.04, 1.02), Vector2::new(48.0, 48.0));
-        let (old, new) = pictures(&true_linear);
+        let (old, new) = images(&true_linear);
         let start = Affine::about(&middle, &middle, true_linear + Matrix2::new(0.03, -0.03, 0.02, -0.03));
         let config = KltConfig { half_px: HALF_PX as u32, ..KltConfig::default() };
         let (refined, linear) = refine_with_stretch((&old, &new), &middle, &start, &config).expect("alike");
         assert!((linear - true_linear).amax() < 4e-3, "{linear}");
         let given = refine_by_patch((&old, &new), &middle, &start, &config).expect("alike");
-        let off = |found: &Refined| (found.pixel_px - middle).norm();
+        let off = |found: &AlignedPatch| (found.pixel_px - middle).norm();
         assert!(off(&refined) < 0.01, "{}", off(&refined));
         assert!(off(&given) > 2.0 * off(&refined), "a wrong stretch displaces: {} {}", off(&given), off(&refined));
     }
@@ -171,7 +171,7 @@ mod tests {
     #[test]
     fn a_stretch_far_from_the_given_one_is_refused() {
         let (true_linear, middle) = (Matrix2::new(1.0, 0.0, 0.0, 1.0), Vector2::new(48.0, 48.0));
-        let (old, new) = pictures(&true_linear);
+        let (old, new) = images(&true_linear);
         let far = true_linear * 1.6;
         let config = KltConfig { half_px: HALF_PX as u32, ..KltConfig::default() };
         let found = |linear: &Matrix2<f64>| better_fit((&old, &new), (&middle, &middle), linear, &config);

@@ -1,4 +1,4 @@
-//! Aligns a patch of grey levels, warped by a predicted motion, with another picture (Lucas and Kanade 1981), in the
+//! Aligns a patch of grey levels, warped by a predicted motion, with another image (Lucas and Kanade 1981), in the
 //! inverse compositional form of Baker and Matthews (2004) with a gain and an offset of the grey levels.
 
 use super::config::KltConfig;
@@ -20,27 +20,27 @@ pub(super) fn covariance_px2(inverse: &Matrix2<f64>, misfit_dn2: f64, noise: &Pa
 }
 
 /// A refined pixel.
-pub struct Refined {
+pub struct AlignedPatch {
     pub pixel_px: Vector2<f64>,
     pub(super) covariance_px2: Matrix2<f64>,
     pub(super) correlation: f64,
 }
 
-impl Refined {
+impl AlignedPatch {
     /// R.m.s. 1σ of both coordinates, px.
     pub fn sigma_px(&self) -> f64 {
         (0.5 * self.covariance_px2.trace()).sqrt()
     }
 }
 
-/// Aligns the patch of the old picture about `old_px`, warped by `affine`, with the new picture. `None` at the edge, on
+/// Aligns the patch of the old image about `old_px`, warped by `affine`, with the new image. `None` at the edge, on
 /// featureless ground, further than allowed from where `affine` leads, or where the patches do not look alike.
 pub fn refine_by_patch(
     (old, new): (&GrayImage, &GrayImage),
     old_px: &Vector2<f64>,
     affine: &Affine,
     config: &KltConfig,
-) -> Option<Refined> {
+) -> Option<AlignedPatch> {
     let template = Template::new(old, old_px, &affine.linear.try_inverse()?, config.half_px as usize)?;
     let start_px = affine.apply(old_px);
     let mut pixel_px = start_px;
@@ -53,7 +53,7 @@ pub fn refine_by_patch(
             return None;
         }
         if fit.step_px.norm() < SETTLED_PX {
-            let refined = Refined { pixel_px, covariance_px2: fit.covariance_px2, correlation: fit.correlation };
+            let refined = AlignedPatch { pixel_px, covariance_px2: fit.covariance_px2, correlation: fit.correlation };
             return (fit.correlation > config.min_correlation).then_some(refined);
         }
     }

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub struct KltConfig {
     /// Half the patch's side, px, 2 or more (default 10: 21 px a side).
     pub half_px: u32,
-    /// Sizes of the picture that are searched, each half as large as the one before, 1 or more (default 3).
+    /// Sizes of the image that are searched, each half as large as the one before, 1 or more (default 3).
     pub levels: u32,
     /// Most steps on each size, 1 or more (default 20).
     pub max_iterations: u32,

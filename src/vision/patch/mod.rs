@@ -1,4 +1,4 @@
-//! Patches: aligned to a fraction of a pixel, followed from picture to picture, warped as the surface turns.
+//! Patches: aligned to a fraction of a pixel, followed from image to image, warped as the surface turns.
 
 mod affine_alignment;
 mod alignment;

@@ -1,17 +1,17 @@
-//! Points followed from picture to picture by the grey levels about them, after warping them by a predicted motion.
+//! Points followed from image to image by the grey levels about them, after warping them by a predicted motion.
 
-use super::alignment::{Refined, refine_by_patch};
+use super::alignment::{AlignedPatch, refine_by_patch};
 use super::config::KltConfig;
 use super::local_affine::Affine;
 use crate::vision::error::VisionError;
-use crate::vision::opencv_bridge::{grey_image, picture_mat};
+use crate::vision::opencv_bridge::{grey_image, image_mat};
 use image::GrayImage;
 use nalgebra::{Matrix2, Vector2};
 use opencv::core::{BORDER_REFLECT_101, Mat, Size};
 use opencv::imgproc::pyr_down;
 use rayon::prelude::*;
 
-/// Where a point was found in the second picture.
+/// Where a point was found in the second image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KltPoint {
     /// Pixel (u, v).
@@ -22,22 +22,22 @@ pub struct KltPoint {
     pub correlation: f64,
 }
 
-/// Follows points from one picture into another; `None` where a point leaves the picture, where the grey levels do not say
+/// Follows points from one image into another; `None` where a point leaves the image, where the grey levels do not say
 /// where it went, or where the way back does not end where it began.
 ///
-/// `predict` carries pixels of the first picture into the second as far as the motion is known beforehand (a turn from
+/// `predict` carries pixels of the first image into the second as far as the motion is known beforehand (a turn from
 /// gyroscopes, a plane, the matches around); it warps each patch, too. What it leaves open is searched for from coarse to
 /// fine. Points are independent: the result does not depend on the number of threads.
 ///
 /// # Errors
-/// OpenCV's refusal to shrink a picture.
+/// OpenCV's refusal to shrink an image.
 pub fn track_patches(
     (from, to): (&GrayImage, &GrayImage),
     points_px: &[Vector2<f64>],
     predict: &(dyn Fn(&Vector2<f64>) -> Option<Vector2<f64>> + Sync),
     config: &KltConfig,
 ) -> Result<Vec<Option<KltPoint>>, VisionError> {
-    let shrink = |picture| pyramid(picture, config.levels).map_err(VisionError::opencv("shrink a picture"));
+    let shrink = |image| pyramid(image, config.levels).map_err(VisionError::opencv("shrink a picture"));
     let (from, to) = (shrink(from)?, shrink(to)?);
     let follow = |point_px: &Vector2<f64>| {
         let warp = warp_about(point_px, predict, f64::from(config.half_px))?;
@@ -53,19 +53,19 @@ pub fn track_patches(
     Ok(points_px.par_iter().map(follow).collect())
 }
 
-/// The picture and smaller ones, each half as large.
-fn pyramid(picture: &GrayImage, levels: u32) -> opencv::Result<Vec<GrayImage>> {
-    let mut pictures = vec![picture.clone()];
+/// The image and smaller ones, each half as large.
+fn pyramid(image: &GrayImage, levels: u32) -> opencv::Result<Vec<GrayImage>> {
+    let mut images = vec![image.clone()];
     for _ in 1..levels {
-        let last = &pictures[pictures.len() - 1];
+        let last = &images[images.len() - 1];
         if last.width().min(last.height()) < 64 {
             break;
         }
         let mut half = Mat::default();
-        pyr_down(&picture_mat(last)?, &mut half, Size::default(), BORDER_REFLECT_101)?;
-        pictures.push(grey_image(&half)?);
+        pyr_down(&image_mat(last)?, &mut half, Size::default(), BORDER_REFLECT_101)?;
+        images.push(grey_image(&half)?);
     }
-    Ok(pictures)
+    Ok(images)
 }
 
 /// The predicted motion about a point, by central differences over the patch.
@@ -80,13 +80,13 @@ fn warp_about(
     Some(Affine::about(point_px, &predict(point_px)?, linear))
 }
 
-/// The point in the second picture: each level starts where the coarser one ended, or at the prediction where that failed.
+/// The point in the second image: each level starts where the coarser one ended, or at the prediction where that failed.
 fn coarse_to_fine(
     (from, to): (&[GrayImage], &[GrayImage]),
     point_px: &Vector2<f64>,
     warp: &Affine,
     config: &KltConfig,
-) -> Option<Refined> {
+) -> Option<AlignedPatch> {
     let mut start_px = warp.apply(point_px);
     let coarse = KltConfig { half_px: (config.half_px / 2).max(3), ..config.clone() };
     for level in (1..from.len()).rev() {

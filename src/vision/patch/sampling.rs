@@ -35,14 +35,14 @@ pub(super) fn sum(a: &[f32]) -> f64 {
 /// Grey levels, counted from `zero_dn`, of a square of `2 half + 1` a side about a place, row by row, bilinear; `None` at
 /// the edge.
 pub(super) fn sample_square(
-    picture: &GrayImage,
+    image: &GrayImage,
     center_px: &Vector2<f64>,
     (half, zero_dn): (usize, f32),
     out: &mut [f32],
 ) -> Option<()> {
     let (left, top) = (center_px.x.floor() - half as f64, center_px.y.floor() - half as f64);
     let side = 2 * half + 1;
-    let (width, height) = (picture.width() as usize, picture.height() as usize);
+    let (width, height) = (image.width() as usize, image.height() as usize);
     if left < 0.0 || top < 0.0 || left as usize + side >= width || top as usize + side >= height {
         return None;
     }
@@ -50,7 +50,7 @@ pub(super) fn sample_square(
     let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t];
     for (row, line) in out.chunks_exact_mut(side).enumerate() {
         let at = (top as usize + row) * width + left as usize;
-        let (upper, lower) = (&picture.as_raw()[at..=at + side], &picture.as_raw()[at + width..=at + width + side]);
+        let (upper, lower) = (&image.as_raw()[at..=at + side], &image.as_raw()[at + width..=at + width + side]);
         for (i, value) in line.iter_mut().enumerate() {
             *value = weights[0] * f32::from(upper[i])
                 + weights[1] * f32::from(upper[i + 1])
@@ -64,14 +64,14 @@ pub(super) fn sample_square(
 
 /// Grey levels of a warped square of `2 half + 1` a side, row by row, bilinear; `None` at the edge.
 pub(super) fn sample_warped(
-    picture: &GrayImage,
+    image: &GrayImage,
     center_px: &Vector2<f64>,
     linear: &Matrix2<f64>,
     half: usize,
 ) -> Option<Vec<f32>> {
     let reach = half as f64;
     let corners = [(-reach, -reach), (reach, -reach), (-reach, reach), (reach, reach)];
-    let (width, height) = (picture.width() as usize, picture.height() as usize);
+    let (width, height) = (image.width() as usize, image.height() as usize);
     let inside = |(u, v): &(f64, f64)| {
         let p = center_px + linear * Vector2::new(*u, *v);
         p.x >= 0.0 && p.y >= 0.0 && p.x + 1.0 < width as f64 && p.y + 1.0 < height as f64
@@ -79,7 +79,7 @@ pub(super) fn sample_warped(
     if !corners.iter().all(inside) {
         return None;
     }
-    let grey = picture.as_raw();
+    let grey = image.as_raw();
     let side = 2 * half + 1;
     let step = linear.column(0).map(fixed);
     let mut out = vec![0.0; side * side];

@@ -1,10 +1,10 @@
-//! One pair of adjacent pictures: matched, solved, sharpened, solved again.
+//! One pair of adjacent images: matched, solved, with_refined, solved again.
 
-use super::image_features::{FrameFeatures, Way, match_pair};
-use super::job::{Job, milliseconds};
+use super::context::{TrackingContext, milliseconds};
+use super::image_features::{FrameFeatures, MatchStrategy, match_pair};
 use super::link::{Link, Stretch};
 use super::pair_pixels::PairPixels;
-use super::refined_match::sharpen;
+use super::refined_match::refine_matches;
 use crate::observations::PairStatus;
 use crate::vision::config::FrontEndMode;
 use crate::vision::error::VisionError;
@@ -64,20 +64,24 @@ impl Pair {
 }
 
 /// Solves a pair, sharpens the matches that agree, and solves it again with them.
-pub(super) fn solve_sharp_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pair, VisionError> {
-    let mut pair = solve_pair(job, from, to)?;
+pub(super) fn solve_refined_pair(
+    context: &TrackingContext,
+    from: &FrameFeatures,
+    to: &FrameFeatures,
+) -> Result<Pair, VisionError> {
+    let mut pair = solve_pair(context, from, to)?;
     if pair.solution.inlier_count() == 0 {
         return Ok(pair);
     }
     let start = Instant::now();
-    let own = job.config.mode == FrontEndMode::FixedCenter && job.config.fixed_center.stretch_patches;
-    let how = (&job.config.klt, if own { Stretch::Own } else { Stretch::OfMatches });
-    pair.links = sharpen((&from.picture, &to.picture), (&pair.pixels, &pair.solution.inliers), how);
+    let own = context.config.mode == FrontEndMode::FixedCenter && context.config.fixed_center.stretch_patches;
+    let how = (&context.config.klt, if own { Stretch::Own } else { Stretch::OfMatches });
+    pair.links = refine_matches((&from.image, &to.image), (&pair.pixels, &pair.solution.inliers), how);
     pair.match_ms += milliseconds(start);
     let start = Instant::now();
-    let pixels = pair.pixels.sharpened(&pair.links);
-    let predicted = job.predicted(from.report.t_ns, to.report.t_ns);
-    let solution = first_solution(job, &pixels, predicted)?;
+    let pixels = pair.pixels.with_refined(&pair.links);
+    let predicted = context.predicted(from.report.t_ns, to.report.t_ns);
+    let solution = first_solution(context, &pixels, predicted)?;
     if solution.status == PairStatus::Ok || pair.solution.status != PairStatus::Ok {
         (pair.pixels, pair.solution) = (pixels, solution);
     }
@@ -85,10 +89,10 @@ pub(super) fn solve_sharp_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatur
     Ok(pair)
 }
 
-/// Matches a pair in one way after another until the motion is clear; the best attempt otherwise.
-fn solve_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pair, VisionError> {
-    let predicted = job.predicted(from.report.t_ns, to.report.t_ns);
-    let fewest = job.config.rotation.min_matches;
+/// Matches a pair in one strategy after another until the motion is clear; the best attempt otherwise.
+fn solve_pair(context: &TrackingContext, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pair, VisionError> {
+    let predicted = context.predicted(from.report.t_ns, to.report.t_ns);
+    let fewest = context.config.rotation.min_matches;
     if from.features.len() < fewest || to.features.len() < fewest {
         let solution = PairSolution::failed(PairStatus::NoFeatures, 0);
         return Ok(Pair {
@@ -101,15 +105,15 @@ fn solve_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pai
             rotation_ms: 0.0,
         });
     }
-    let ways = [Way::Guided, Way::Upright, Way::Turned];
+    let strategies = [MatchStrategy::Guided, MatchStrategy::Upright, MatchStrategy::Turned];
     let mut best: Option<Pair> = None;
-    for way in ways.into_iter().filter(|w| predicted.is_some() || *w != Way::Guided) {
+    for strategy in strategies.into_iter().filter(|w| predicted.is_some() || *w != MatchStrategy::Guided) {
         let start = Instant::now();
-        let matches = match_pair((from, to), way, (job.camera(), predicted), job.config)?;
+        let matches = match_pair((from, to), strategy, (context.camera(), predicted), context.config)?;
         let match_ms = milliseconds(start) + best.as_ref().map_or(0.0, |b| b.match_ms);
         let start = Instant::now();
         let pixels = PairPixels::new(&from.features, &to.features, matches.iter().map(|m| (m.from, m.to)));
-        let solution = first_solution(job, &pixels, predicted)?;
+        let solution = first_solution(context, &pixels, predicted)?;
         let rotation_ms = milliseconds(start) + best.as_ref().map_or(0.0, |b| b.rotation_ms);
         let clear = matches!(solution.status, PairStatus::Ok | PairStatus::NoMotion | PairStatus::Degenerate)
             && solution.inlier_count() >= 3 * fewest;
@@ -126,10 +130,10 @@ fn solve_pair(job: &Job, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pai
 }
 
 fn first_solution(
-    job: &Job,
+    context: &TrackingContext,
     pixels: &PairPixels,
     predicted: Option<UnitQuaternion<f64>>,
 ) -> Result<PairSolution, VisionError> {
     let hints = PairHints { camera_to_from_camera_from: predicted, normal_in_from: None };
-    relative_rotation(pixels.view(), job.camera(), &hints, &job.config.rotation)
+    relative_rotation(pixels.view(), context.camera(), &hints, &context.config.rotation)
 }

@@ -1,8 +1,8 @@
 //! Pairs with two rival solutions, settled by their neighbours.
 
 use super::adjacent_pair::Pair;
+use super::context::{Center, TrackingContext};
 use super::image_chain::Chain;
-use super::job::{Center, Job};
 use super::pair_pixels::PairPixels;
 use crate::geometry::Camera;
 use crate::observations::PairStatus;
@@ -12,24 +12,24 @@ use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 /// Pairs with two rival solutions are solved again with the ground's normal as their neighbours found it: first as the
 /// pair before did, then, for those that come before the first clear one, as the pair after did.
-pub fn settle_rivals(job: &Job, chain: &mut Chain) -> Result<Center, VisionError> {
+pub fn resolve_ambiguous_pairs(context: &TrackingContext, chain: &mut Chain) -> Result<Center, VisionError> {
     let again = |pair: &mut Pair, normal: Unit<Vector3<f64>>| -> Result<(), VisionError> {
         let hints = PairHints { camera_to_from_camera_from: None, normal_in_from: Some(normal) };
-        pair.solution = relative_rotation(pair.pixels.view(), job.camera(), &hints, &job.config.rotation)?;
+        pair.solution = relative_rotation(pair.pixels.view(), context.camera(), &hints, &context.config.rotation)?;
         Ok(())
     };
-    let open = |pair: &Pair| pair.is_open() && job.prior.is_none();
+    let open = |pair: &Pair| pair.is_open() && context.prior.is_none();
     let mut normal: Option<Unit<Vector3<f64>>> = None;
     for pair in &mut chain.pairs {
         if let Some(known) = normal.filter(|_| open(pair)) {
             again(pair, known)?;
         }
         let here = pair.solution.normal_in_from.or(normal);
-        normal = here.zip(turn_of(pair, job.camera())).map(|(n, turn)| turn * n);
+        normal = here.zip(turn_of(pair, context.camera())).map(|(n, turn)| turn * n);
     }
     let mut normal_after: Option<Unit<Vector3<f64>>> = None;
     for pair in chain.pairs.iter_mut().rev() {
-        let carried = normal_after.zip(turn_of(pair, job.camera())).map(|(n, turn)| turn.inverse() * n);
+        let carried = normal_after.zip(turn_of(pair, context.camera())).map(|(n, turn)| turn.inverse() * n);
         if let Some(known) = carried.filter(|_| open(pair)) {
             again(pair, known)?;
         }

@@ -25,15 +25,15 @@ const CROWDED_PX: f64 = 5.0;
 
 /// A point without a corner, with the response of its last one.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Loose {
+pub(super) struct CoastedTrack {
     pub(super) point: TrackPoint,
     pub(super) response: f64,
 }
 
-/// Two pictures with what is known of the way from one to the other.
-pub(super) struct Passage<'a> {
-    /// The first picture and the second one.
-    pub(super) pictures: (&'a GrayImage, &'a GrayImage),
+/// Two images with what is known of the strategy from one to the other.
+pub(super) struct CoastedSpan<'a> {
+    /// The first image and the second one.
+    pub(super) images: (&'a GrayImage, &'a GrayImage),
     /// Matches that agree with the motion.
     pub(super) matches: Vec<Match>,
     /// Following of patches.
@@ -42,14 +42,14 @@ pub(super) struct Passage<'a> {
     pub(super) keep_out: Option<&'a KeepOut<'a>>,
 }
 
-impl Passage<'_> {
-    /// Where each point of the first picture lies in the second one; `None` where the grey levels do not say.
+impl CoastedSpan<'_> {
+    /// Where each point of the first image lies in the second one; `None` where the grey levels do not say.
     pub(super) fn follow(&self, points_px: &[Vector2<f64>]) -> Vec<Option<Link>> {
         points_px.par_iter().map(|point_px| self.follow_one(point_px)).collect()
     }
 
     fn follow_one(&self, point_px: &Vector2<f64>) -> Option<Link> {
-        let (old, new) = self.pictures;
+        let (old, new) = self.images;
         let there = fit_affine(point_px, &self.matches, FEWEST)?.affine;
         let found = refine_by_patch((old, new), point_px, &there, self.klt)?;
         let clear = self.keep_out.is_none_or(|k| k.is_clear(&found.pixel_px));
@@ -63,18 +63,18 @@ impl Passage<'_> {
     }
 }
 
-/// Points without matches in the next picture, in order of the number: those that come upon a free corner there take it,
+/// Points without matches in the next image, in order of the number: those that come upon a free corner there take it,
 /// those that come upon another point end, the others are given back.
-pub(super) fn carried_loose(
-    mut lost: Vec<Loose>,
-    passage: &Passage,
+pub(super) fn carried_coasted(
+    mut lost: Vec<CoastedTrack>,
+    passage: &CoastedSpan,
     (next, there): (&[Feature], &mut [Option<TrackPoint>]),
-) -> Vec<Loose> {
+) -> Vec<CoastedTrack> {
     lost.sort_unstable_by_key(|l| l.point.number);
     let places: Vec<Vector2<f64>> = lost.iter().map(|l| l.point.pixel_px).collect();
     let corners = CellIndex::new(next.iter().map(|f| &f.pixel_px), CROWDED_PX);
     let mut taken = CellIndex::new(std::iter::empty(), CROWDED_PX);
-    let mut loose: Vec<Loose> = Vec::new();
+    let mut coasted: Vec<CoastedTrack> = Vec::new();
     for (lost, link) in lost.iter().zip(passage.follow(&places)) {
         let Some(link) = link else { continue };
         let scale = link.linear.determinant().abs().sqrt();
@@ -85,7 +85,7 @@ pub(super) fn carried_loose(
         let crowded = near.iter().any(|j| there[*j].is_some())
             || taken
                 .near(&point.pixel_px)
-                .any(|k: usize| (loose[k].point.pixel_px - point.pixel_px).norm() < CROWDED_PX);
+                .any(|k: usize| (coasted[k].point.pixel_px - point.pixel_px).norm() < CROWDED_PX);
         if crowded {
             continue;
         }
@@ -93,10 +93,10 @@ pub(super) fn carried_loose(
         match free.min_by(|a, b| off_px(a).total_cmp(&off_px(b))) {
             Some(corner) => there[corner] = Some(point),
             None => {
-                taken.insert(loose.len(), &point.pixel_px);
-                loose.push(Loose { point, ..*lost });
+                taken.insert(coasted.len(), &point.pixel_px);
+                coasted.push(CoastedTrack { point, ..*lost });
             }
         }
     }
-    loose
+    coasted
 }

@@ -1,9 +1,9 @@
-//! Pictures one after the other, and the pairs between them.
+//! Images one after the other, and the pairs between them.
 
-use super::adjacent_pair::{Pair, solve_sharp_pair};
-use super::coasted_tracks::Passage;
+use super::adjacent_pair::{Pair, solve_refined_pair};
+use super::coasted_tracks::CoastedSpan;
+use super::context::TrackingContext;
 use super::image_features::FrameFeatures;
-use super::job::Job;
 use super::tracks::Tracks;
 use crate::dataset::Frame;
 use crate::observations::FrameStatus;
@@ -13,18 +13,18 @@ use crate::vision::front_end::FrameReport;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Most pixels of the pictures that are worked on at a time; two pictures always are.
+/// Most pixels of the images that are worked on at a time; two images always are.
 const MOST_PIXELS: usize = 1 << 26;
-/// Most pictures that are worked on at a time.
-const MOST_PICTURES: usize = 8;
+/// Most images that are worked on at a time.
+const MOST_IMAGES: usize = 8;
 
-/// Pictures that are worked on, and held in memory, at a time.
-fn pictures_at_a_time(job: &Job) -> usize {
-    let (width_px, height_px) = job.camera().size_px();
-    (MOST_PIXELS / (width_px as usize * height_px as usize).max(1)).clamp(2, MOST_PICTURES)
+/// Images that are worked on, and held in memory, at a time.
+fn images_at_a_time(context: &TrackingContext) -> usize {
+    let (width_px, height_px) = context.camera().size_px();
+    (MOST_PIXELS / (width_px as usize * height_px as usize).max(1)).clamp(2, MOST_IMAGES)
 }
 
-/// Everything about the usable pictures of a sequence and the pairs of each with the next; reports of the others.
+/// Everything about the usable images of a sequence and the pairs of each with the next; reports of the others.
 #[derive(Default)]
 pub struct Chain {
     pub frames: Vec<FrameFeatures>,
@@ -32,19 +32,19 @@ pub struct Chain {
     pub(super) lost: Vec<FrameReport>,
 }
 
-/// Features of all pictures, matches of adjacent ones and tracks along those, a chunk at a time. About a centre, what
+/// Features of all images, matches of adjacent ones and tracks along those, a chunk at a time. About a centre, what
 /// matches agree is only known when all pairs are solved together: tracks wait for that.
 pub fn link(
-    job: &Job,
+    context: &TrackingContext,
     chosen: &[&Frame],
     tracks: &mut Tracks,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Chain, VisionError> {
     let done = AtomicUsize::new(0);
     let mut chain = Chain::default();
-    for chunk in chosen.chunks(pictures_at_a_time(job)) {
+    for chunk in chosen.chunks(images_at_a_time(context)) {
         let find = |frame: &&Frame| {
-            let found = FrameFeatures::find(job, frame);
+            let found = FrameFeatures::find(context, frame);
             progress(done.fetch_add(1, Ordering::Relaxed) + 1);
             found
         };
@@ -56,52 +56,57 @@ pub fn link(
             }
         }
         let open: Vec<&[FrameFeatures]> = chain.frames[first..].windows(2).collect();
-        let pairs = open.par_iter().map(|w| solve_sharp_pair(job, &w[0], &w[1])).collect::<Result<Vec<_>, _>>()?;
+        let pairs =
+            open.par_iter().map(|w| solve_refined_pair(context, &w[0], &w[1])).collect::<Result<Vec<_>, _>>()?;
         for (pair, to) in pairs.iter().zip(chain.frames.iter_mut().skip(first + 1)) {
             let report = &mut to.report;
             (report.matches, report.match_ms, report.rotation_ms) = (pair.match_count, pair.match_ms, pair.rotation_ms);
         }
         chain.pairs.extend(pairs);
         let last = chain.frames.len().saturating_sub(1);
-        if job.config.mode == FrontEndMode::Auto {
-            chain.extend_tracks(first, tracks, Some(job));
+        if context.config.mode == FrontEndMode::Auto {
+            chain.extend_tracks(first, tracks, Some(context));
         }
-        chain.frames[first..last].iter_mut().for_each(FrameFeatures::forget_picture);
+        chain.frames[first..last].iter_mut().for_each(FrameFeatures::forget_image);
     }
-    if job.config.mode == FrontEndMode::Auto {
+    if context.config.mode == FrontEndMode::Auto {
         chain.end_tracks(tracks);
     }
     Ok(chain)
 }
 
-/// The way from a picture to the next one.
-fn passage<'a>(job: &'a Job, pair: &Pair, (here, next): (&'a FrameFeatures, &'a FrameFeatures)) -> Passage<'a> {
-    let pictures = (&here.picture, &next.picture);
-    Passage { pictures, matches: pair.agreeing(), klt: &job.config.klt, keep_out: job.keep_out.as_ref() }
+/// The strategy from an image to the next one.
+fn passage<'a>(
+    context: &'a TrackingContext,
+    pair: &Pair,
+    (here, next): (&'a FrameFeatures, &'a FrameFeatures),
+) -> CoastedSpan<'a> {
+    let images = (&here.image, &next.image);
+    CoastedSpan { images, matches: pair.agreeing(), klt: &context.config.klt, keep_out: context.keep_out.as_ref() }
 }
 
 impl Chain {
-    /// Extends the tracks along all pairs from number `first` on, and drops what is then done with. With a `job`, whose
-    /// pictures are then still needed, points that matching lost are followed by their patches.
-    pub fn extend_tracks(&mut self, first: usize, tracks: &mut Tracks, job: Option<&Job>) {
+    /// Extends the tracks along all pairs from number `first` on, and drops what is then done with. With a `context`, whose
+    /// images are then still needed, points that matching lost are followed by their patches.
+    pub fn extend_tracks(&mut self, first: usize, tracks: &mut Tracks, context: Option<&TrackingContext>) {
         for (k, pair) in self.pairs.iter_mut().enumerate().skip(first) {
             let (here, next) = (&self.frames[k], &self.frames[k + 1]);
-            let passage = |job| passage(job, pair, (here, next));
-            let passage = job.filter(|job| job.config.klt.follow_lost).map(passage);
+            let passage = |context| passage(context, pair, (here, next));
+            let passage = context.filter(|context| context.config.klt.follow_lost).map(passage);
             tracks.chain(here.report.t_ns, (&here.features, &next.features), pair.verified(), passage.as_ref());
             pair.forget_matches();
             self.frames[k].features = Vec::new();
         }
     }
 
-    /// Ends the tracks with the last picture.
+    /// Ends the tracks with the last image.
     pub fn end_tracks(&self, tracks: &mut Tracks) {
         if let Some(last) = self.frames.last() {
             tracks.report(last.report.t_ns, &last.features);
         }
     }
 
-    /// Reports of all pictures in order; refused where fewer than two could be loaded.
+    /// Reports of all images in order; refused where fewer than two could be loaded.
     pub fn reports(&self) -> Result<Vec<FrameReport>, VisionError> {
         let mut all: Vec<FrameReport> = self.frames.iter().map(|f| &f.report).chain(&self.lost).cloned().collect();
         all.sort_unstable_by_key(|r| r.index);

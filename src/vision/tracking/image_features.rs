@@ -1,6 +1,6 @@
-//! Features of one picture, and their matches with the next.
+//! Features of one image, and their matches with the next.
 
-use super::job::{Job, milliseconds};
+use super::context::{TrackingContext, milliseconds};
 use crate::dataset::Frame;
 use crate::geometry::Camera;
 use crate::observations::FrameStatus;
@@ -19,32 +19,32 @@ use std::borrow::Cow;
 use std::sync::OnceLock;
 use std::time::Instant;
 
-/// A picture's features and descriptors; the picture itself until its pairs are solved.
+/// An image's features and descriptors; the image itself until its pairs are solved.
 pub struct FrameFeatures {
     pub(super) features: Vec<Feature>,
     pub centroid_px: Option<Vector2<f64>>,
     pub report: FrameReport,
-    pub(super) picture: GrayImage,
+    pub(super) image: GrayImage,
     upright: OnceLock<DescriptorSet>,
     turned: OnceLock<DescriptorSet>,
 }
 
 impl FrameFeatures {
-    /// Loads a picture, finds its features and describes them; a picture that cannot be loaded is an outcome.
-    pub(super) fn find(job: &Job, frame: &Frame) -> Result<Self, VisionError> {
-        let config = job.config;
+    /// Loads an image, finds its features and describes them; an image that cannot be loaded is an outcome.
+    pub(super) fn find(context: &TrackingContext, frame: &Frame) -> Result<Self, VisionError> {
+        let config = context.config;
         let start = Instant::now();
-        let picture = match job.sequence.load(frame) {
-            Ok(picture) => picture,
+        let image = match context.sequence.load(frame) {
+            Ok(image) => image,
             Err(error) => return Ok(FrameFeatures::none(FrameReport::unusable(frame, &error))),
         };
         let load_ms = milliseconds(start);
         let start = Instant::now();
-        let (mask, centroid_px) = where_to_look(job, &picture)?;
-        let features = detect_features(&picture, mask.as_deref(), &config.detector)?;
+        let (mask, centroid_px) = where_to_look(context, &image)?;
+        let features = detect_features(&image, mask.as_deref(), &config.detector)?;
         let detect_ms = milliseconds(start);
         let start = Instant::now();
-        let upright = describe_features(&picture, &features, Orientation::Upright, &config.matcher)?.into();
+        let upright = describe_features(&image, &features, Orientation::Upright, &config.matcher)?.into();
         let describe_ms = milliseconds(start);
         let (index, t_ns) = (frame.index, frame.t_ns);
         let enough = features.len() >= config.rotation.min_matches;
@@ -58,12 +58,12 @@ impl FrameFeatures {
             describe_ms,
             ..FrameReport::default()
         };
-        Ok(FrameFeatures { features, centroid_px, report, picture, upright, turned: OnceLock::new() })
+        Ok(FrameFeatures { features, centroid_px, report, image, upright, turned: OnceLock::new() })
     }
 
     fn none(report: FrameReport) -> Self {
         let (upright, turned) = (OnceLock::new(), OnceLock::new());
-        FrameFeatures { features: vec![], centroid_px: None, report, picture: GrayImage::default(), upright, turned }
+        FrameFeatures { features: vec![], centroid_px: None, report, image: GrayImage::default(), upright, turned }
     }
 
     /// Features with their descriptors, which are made when they are first asked for: most pairs need none turned.
@@ -74,14 +74,14 @@ impl FrameFeatures {
         };
         if kept.get().is_none() {
             // Two pairs may come here at once: both make the same.
-            let _ = kept.set(describe_features(&self.picture, &self.features, orientation, config)?);
+            let _ = kept.set(describe_features(&self.image, &self.features, orientation, config)?);
         }
         Ok(Described { features: &self.features, descriptors: kept.get().expect("it is set just above") })
     }
 
     /// Drops what only the pairs need.
-    pub(super) fn forget_picture(&mut self) {
-        self.picture = GrayImage::default();
+    pub(super) fn forget_image(&mut self) {
+        self.image = GrayImage::default();
         self.upright = OnceLock::new();
         self.turned = OnceLock::new();
     }
@@ -90,14 +90,14 @@ impl FrameFeatures {
 /// Where features may lie (everywhere if `None`), and the middle of the body.
 type Outlook<'a> = (Option<Cow<'a, GrayImage>>, Option<Vector2<f64>>);
 
-/// All over the picture, or inside a body's silhouette, and always clear of what the mask leaves out.
-fn where_to_look<'a>(job: &'a Job, picture: &GrayImage) -> Result<Outlook<'a>, VisionError> {
-    let keep_out = job.keep_out.as_ref();
-    if job.config.mode == FrontEndMode::Auto {
+/// All over the image, or inside a body's silhouette, and always clear of what the mask leaves out.
+fn where_to_look<'a>(context: &'a TrackingContext, image: &GrayImage) -> Result<Outlook<'a>, VisionError> {
+    let keep_out = context.keep_out.as_ref();
+    if context.config.mode == FrontEndMode::Auto {
         return Ok((keep_out.map(|k| Cow::Borrowed(k.clear())), None));
     }
-    let seen = keep_out.map_or(Cow::Borrowed(picture), |k| Cow::Owned(k.blackened(picture)));
-    let mut inside = inside_silhouette(&seen, job.config.fixed_center.limb_margin_px)?;
+    let seen = keep_out.map_or(Cow::Borrowed(image), |k| Cow::Owned(k.blackened(image)));
+    let mut inside = inside_silhouette(&seen, context.config.fixed_center.limb_margin_px)?;
     if let Some(keep_out) = keep_out {
         inside.iter_mut().zip(keep_out.clear().iter()).for_each(|(inside, clear)| *inside = (*inside).min(*clear));
     }
@@ -106,27 +106,27 @@ fn where_to_look<'a>(job: &'a Job, picture: &GrayImage) -> Result<Outlook<'a>, V
 
 /// Ways to match, the most selective first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Way {
+pub(super) enum MatchStrategy {
     Guided,
     Upright,
     Turned,
 }
 
-/// Matches two pictures in one way; without a prediction the guided way finds nothing.
+/// Matches two images in one strategy; without a prediction the guided strategy finds nothing.
 pub(super) fn match_pair(
     (from, to): (&FrameFeatures, &FrameFeatures),
-    way: Way,
+    strategy: MatchStrategy,
     (camera, predicted): (&Camera, Option<UnitQuaternion<f64>>),
     config: &FrontEndConfig,
 ) -> Result<Vec<IndexMatch>, VisionError> {
-    let orientation = match way {
-        Way::Guided if predicted.is_some_and(|q| roll_rad(&q).abs() < 0.2) => Orientation::Upright,
-        Way::Upright => Orientation::Upright,
+    let orientation = match strategy {
+        MatchStrategy::Guided if predicted.is_some_and(|q| roll_rad(&q).abs() < 0.2) => Orientation::Upright,
+        MatchStrategy::Upright => Orientation::Upright,
         _ => Orientation::Centroid,
     };
     let matcher = &config.matcher;
     let (from, to) = (from.described(orientation, matcher)?, to.described(orientation, matcher)?);
-    if way != Way::Guided {
+    if strategy != MatchStrategy::Guided {
         return match_features(from, to, matcher);
     }
     let Some(rotation) = predicted else { return Ok(Vec::new()) };
@@ -135,7 +135,7 @@ pub(super) fn match_pair(
     match_features_guided(from, to, &predict, matcher)
 }
 
-/// Turn of the picture about its axis.
+/// Turn of the image about its axis.
 fn roll_rad(rotation: &UnitQuaternion<f64>) -> f64 {
     2.0 * rotation.k.atan2(rotation.w)
 }

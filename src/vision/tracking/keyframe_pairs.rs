@@ -1,7 +1,7 @@
-//! Rotations of pictures further apart, through the tracks that they share.
+//! Rotations of images further apart, through the tracks that they share.
 
+use super::context::TrackingContext;
 use super::image_chain::Chain;
-use super::job::Job;
 use super::output_order::as_relative_rotation;
 use super::pair_pixels::PairPixels;
 use super::tracks::Tracks;
@@ -16,15 +16,15 @@ use rayon::prelude::*;
 /// The centre of rotation with its covariance, in the fixed-centre mode.
 type Center<'a> = Option<&'a (Unit<Vector3<f64>>, Matrix2<f64>)>;
 
-/// Solves the keyframe pairs of all spans, in order of the first picture, then of the span. A pair whose rotation is too
+/// Solves the keyframe pairs of all spans, in order of the first image, then of the span. A pair whose rotation is too
 /// large, or with too few shared tracks, is left out; so is one that spans a link without a rotation, unless it is solved.
 pub fn keyframe_rotations(
-    job: &Job,
+    context: &TrackingContext,
     chain: &Chain,
     numbers: &Tracks,
     center: Center<'_>,
 ) -> Result<Vec<RelativeRotation>, VisionError> {
-    let spans = job.config.keyframe_spans.iter().filter(|s| **s >= 2);
+    let spans = context.config.keyframe_spans.iter().filter(|s| **s >= 2);
     let count = chain.frames.len();
     let all: Vec<(usize, usize)> = {
         let mut all: Vec<_> = spans.flat_map(|s| (0..count.saturating_sub(*s)).map(move |k| (k, k + s))).collect();
@@ -32,20 +32,20 @@ pub fn keyframe_rotations(
         all.dedup();
         all
     };
-    let solved = all.par_iter().map(|span| keyframe(job, chain, numbers, (*span, center)));
+    let solved = all.par_iter().map(|span| keyframe(context, chain, numbers, (*span, center)));
     Ok(solved.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
 }
 
 fn keyframe(
-    job: &Job,
+    context: &TrackingContext,
     chain: &Chain,
     numbers: &Tracks,
     ((from, to), center): ((usize, usize), Center<'_>),
 ) -> Result<Option<RelativeRotation>, VisionError> {
     let chained = chained_rotation(chain, from, to);
-    let too_far = |rotation: &UnitQuaternion<f64>| rotation.angle() > job.config.keyframe_max_angle_rad;
+    let too_far = |rotation: &UnitQuaternion<f64>| rotation.angle() > context.config.keyframe_max_angle_rad;
     let shared = numbers.shared_by_corners(from, to);
-    if chained.as_ref().is_some_and(too_far) || shared.len() < job.config.rotation.min_matches {
+    if chained.as_ref().is_some_and(too_far) || shared.len() < context.config.rotation.min_matches {
         return Ok(None);
     }
     let (a, b) = (&chain.frames[from], &chain.frames[to]);
@@ -53,14 +53,14 @@ fn keyframe(
     let solution: PairSolution = match center {
         None => {
             let hints = PairHints { camera_to_from_camera_from: chained, normal_in_from: None };
-            relative_rotation(pixels.view(), job.camera(), &hints, &job.config.rotation)?
+            relative_rotation(pixels.view(), context.camera(), &hints, &context.config.rotation)?
         }
         Some((direction, covariance)) => {
             let problem = CenterProblem {
-                camera: job.camera(),
+                camera: context.camera(),
                 center_guess: *direction,
-                config: &job.config.fixed_center,
-                rotation: &job.config.rotation,
+                config: &context.config.fixed_center,
+                rotation: &context.config.rotation,
             };
             let dt_s = (b.report.t_ns - a.report.t_ns) as f64 * 1e-9;
             let pair = CenteredPair { matches: pixels.view(), dt_s, predicted: chained };

@@ -1,15 +1,15 @@
-//! How a track goes from one picture to the next.
+//! How a track goes from one image to the next.
 
 use nalgebra::{Matrix2, Vector2};
 
-/// Where a feature of the first picture lies in the second one.
+/// Where a feature of the first image lies in the second one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Link {
-    /// Pixel in the second picture.
+    /// Pixel in the second image.
     pub(super) to_px: Vector2<f64>,
     /// 1σ of each coordinate in px.
     pub(super) sigma_px: f64,
-    /// How the picture is stretched about the feature, second by first.
+    /// How the image is stretched about the feature, second by first.
     pub(super) linear: Matrix2<f64>,
 }
 
@@ -22,7 +22,7 @@ pub(super) enum Stretch {
     Own,
 }
 
-/// Where a track is in one picture.
+/// Where a track is in one image.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TrackPoint {
     pub(super) number: u64,
@@ -33,5 +33,5 @@ pub(super) struct TrackPoint {
     pub(super) followed: u32,
 }
 
-/// A point in two pictures, with the 1σ of the second pixel given the first, px.
+/// A point in two images, with the 1σ of the second pixel given the first, px.
 pub(super) type SharedPoint = (Vector2<f64>, Vector2<f64>, f64);

@@ -3,9 +3,9 @@
 mod adjacent_pair;
 mod ambiguous_pairs;
 mod coasted_tracks;
+mod context;
 mod image_chain;
 mod image_features;
-mod job;
 mod keyframe_pairs;
 mod link;
 mod output_order;
@@ -13,9 +13,9 @@ mod pair_pixels;
 mod refined_match;
 mod tracks;
 
-pub use ambiguous_pairs::settle_rivals;
+pub use ambiguous_pairs::resolve_ambiguous_pairs;
+pub use context::{Center, TrackingContext, milliseconds};
 pub use image_chain::{Chain, link};
-pub use job::{Center, Job, milliseconds};
 pub use keyframe_pairs::keyframe_rotations;
 pub use output_order::rotations_in_order;
 pub use tracks::Tracks;

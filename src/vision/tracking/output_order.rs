@@ -5,7 +5,7 @@ use crate::observations::{PairStatus, RelativeRotation, RotationModel};
 use crate::vision::front_end::FrameReport;
 use crate::vision::pair::PairSolution;
 
-/// Adjacent pictures first, those that cannot be used included, by status; then pairs over the gaps that those leave, and
+/// Adjacent images first, those that cannot be used included, by status; then pairs over the gaps that those leave, and
 /// keyframe pairs, together in order of time.
 pub fn rotations_in_order(
     chain: &Chain,
@@ -29,7 +29,7 @@ fn adjacent(chain: &Chain, from: &FrameReport, to: &FrameReport) -> RelativeRota
     }
 }
 
-/// The rotation of a picture and the next usable one.
+/// The rotation of an image and the next usable one.
 fn linked(chain: &Chain, k: usize) -> RelativeRotation {
     let times = (chain.frames[k].report.t_ns, chain.frames[k + 1].report.t_ns);
     as_relative_rotation(times, chain.pairs[k].match_count, &chain.pairs[k].solution)

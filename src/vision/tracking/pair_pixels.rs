@@ -34,7 +34,7 @@ impl PairPixels {
     }
 
     /// The same matches with the second pixels where the links put them.
-    pub(super) fn sharpened(&self, links: &[Option<Link>]) -> Self {
+    pub(super) fn with_refined(&self, links: &[Option<Link>]) -> Self {
         let mut pixels = self.clone();
         for (i, link) in links.iter().enumerate() {
             if let Some(link) = link {

@@ -1,7 +1,7 @@
 //! Sharpens matches by grey levels: the corner says which surface point it is, the patch about it says where it went.
 //!
-//! Corners found anew in the next picture are not quite the same surface points: each detection has its own error, and
-//! as scale changes a corner wanders over the ground. Aligning the patch of the first picture, warped by the local affine
+//! Corners found anew in the next image are not quite the same surface points: each detection has its own error, and
+//! as scale changes a corner wanders over the ground. Aligning the patch of the first image, warped by the local affine
 //! map of the matches, with the second one is several times more exact and does not wander.
 
 use super::link::{Link, Stretch};
@@ -16,8 +16,8 @@ const FARTHEST_PX: f64 = 2.0;
 const FEWEST: usize = 8;
 
 /// A link for each match that agrees with the motion; `None` where the patches do not settle it.
-pub(super) fn sharpen(
-    pictures: (&GrayImage, &GrayImage),
+pub(super) fn refine_matches(
+    images: (&GrayImage, &GrayImage),
     (pixels, inliers): (&PairPixels, &[bool]),
     (klt, stretch): (&KltConfig, Stretch),
 ) -> Vec<Option<Link>> {
@@ -25,7 +25,7 @@ pub(super) fn sharpen(
         .map(|i| (pixels.pair.from_px[i], pixels.pair.to_px[i], std::f64::consts::SQRT_2 * pixels.sigma_px[i]))
         .collect();
     let agreeing: Vec<Match> = matches.iter().zip(inliers).filter(|(_, inlier)| **inlier).map(|(m, _)| *m).collect();
-    let link = |(m, inlier): (&Match, &bool)| if *inlier { link(pictures, m, &agreeing, (klt, stretch)) } else { None };
+    let link = |(m, inlier): (&Match, &bool)| if *inlier { link(images, m, &agreeing, (klt, stretch)) } else { None };
     matches.par_iter().zip(inliers).map(link).collect()
 }
 

@@ -1,6 +1,6 @@
 //! Verified matches chain into tracks, each of one surface point.
 
-use super::coasted_tracks::{Loose, Passage, carried_loose};
+use super::coasted_tracks::{CoastedSpan, CoastedTrack, carried_coasted};
 use super::link::{Link, SharedPoint, TrackPoint};
 use crate::observations::TrackObservation;
 use crate::vision::features::Feature;
@@ -12,17 +12,17 @@ const FIRST_SIGMA_PX: f64 = 0.05;
 /// A track ends where its point and the corner that it is matched by have parted by this much, px.
 const PARTED_PX: f64 = 3.0;
 
-/// Tracks that grow picture by picture. What is kept of each picture is what is reported of it.
+/// Tracks that grow image by image. What is kept of each image is what is reported of it.
 pub struct Tracks {
-    /// Points of the last picture by feature; `None` for features that never matched.
+    /// Points of the last image by feature; `None` for features that never matched.
     here: Vec<Option<TrackPoint>>,
-    /// Points of the last picture that have no corner there.
-    loose: Vec<Loose>,
+    /// Points of the last image that have no corner there.
+    coasted: Vec<CoastedTrack>,
     next: u64,
     observations: Vec<TrackObservation>,
     /// Of each observation, the links of its track so far that no matched corner made.
     followed: Vec<u32>,
-    /// Where each picture's observations start.
+    /// Where each image's observations start.
     starts: Vec<usize>,
 }
 
@@ -30,17 +30,17 @@ impl Tracks {
     /// No tracks yet; numbers start after the designated point's.
     pub fn new() -> Self {
         let next = TrackObservation::DESIGNATED + 1;
-        Tracks { here: Vec::new(), loose: Vec::new(), next, observations: vec![], followed: vec![], starts: vec![] }
+        Tracks { here: Vec::new(), coasted: Vec::new(), next, observations: vec![], followed: vec![], starts: vec![] }
     }
 
-    /// Carries points from the last picture, taken at `t_ns`, to the next one along verified matches; new ones where none
+    /// Carries points from the last image, taken at `t_ns`, to the next one along verified matches; new ones where none
     /// was. Points that no match carries go by `passage`, where there is one.
     pub(super) fn chain(
         &mut self,
         t_ns: i64,
         (features, next): (&[Feature], &[Feature]),
         matches: impl Iterator<Item = (IndexMatch, Option<Link>)>,
-        passage: Option<&Passage>,
+        passage: Option<&CoastedSpan>,
     ) {
         self.here.resize(features.len(), None);
         let mut there = vec![None; next.len()];
@@ -57,17 +57,18 @@ impl Tracks {
             let parted = (carried.pixel_px - next[m.to].pixel_px).norm() > PARTED_PX;
             there[m.to] = (!parted).then_some(carried);
         }
-        let lost: Vec<Loose> = lost.iter().zip(features).filter_map(with_response).chain(self.loose.clone()).collect();
-        let loose = passage.map_or(Vec::new(), |passage| carried_loose(lost, passage, (next, &mut there)));
+        let lost: Vec<CoastedTrack> =
+            lost.iter().zip(features).filter_map(with_response).chain(self.coasted.clone()).collect();
+        let coasted = passage.map_or(Vec::new(), |passage| carried_coasted(lost, passage, (next, &mut there)));
         self.report(t_ns, features);
-        (self.here, self.loose) = (there, loose);
+        (self.here, self.coasted) = (there, coasted);
     }
 
-    /// Reports the points of the last picture, in order of the number; [`Tracks::chain`] does so for all before it.
+    /// Reports the points of the last image, in order of the number; [`Tracks::chain`] does so for all before it.
     pub(super) fn report(&mut self, t_ns: i64, features: &[Feature]) {
         self.starts.push(self.observations.len());
         let cornered = self.here.iter().zip(features).filter_map(with_response);
-        let mut all: Vec<Loose> = cornered.chain(self.loose.iter().copied()).collect();
+        let mut all: Vec<CoastedTrack> = cornered.chain(self.coasted.iter().copied()).collect();
         all.sort_unstable_by_key(|l| l.point.number);
         self.followed.extend(all.iter().map(|l| l.point.followed));
         self.observations.extend(all.iter().map(|l| TrackObservation {
@@ -79,27 +80,27 @@ impl Tracks {
         }));
     }
 
-    /// All observations of a picture, in order of the number.
-    pub(super) fn observations(&self, picture: usize) -> &[TrackObservation] {
-        let end = self.starts.get(picture + 1).copied().unwrap_or(self.observations.len());
-        &self.observations[self.starts[picture]..end]
+    /// All observations of an image, in order of the number.
+    pub(super) fn observations(&self, image: usize) -> &[TrackObservation] {
+        let end = self.starts.get(image + 1).copied().unwrap_or(self.observations.len());
+        &self.observations[self.starts[image]..end]
     }
 
-    /// Points seen in two pictures, in order of the number.
+    /// Points seen in two images, in order of the number.
     pub fn shared(&self, from: usize, to: usize) -> Vec<SharedPoint> {
         self.shared_where(from, to, |_, _| true)
     }
 
-    /// Points seen in two pictures, and carried all the way between them by matched corners. Those that their patches alone
+    /// Points seen in two images, and carried all the strategy between them by matched corners. Those that their patches alone
     /// carried err alike with their neighbours: more of them would make a rotation look surer than it is.
     pub(super) fn shared_by_corners(&self, from: usize, to: usize) -> Vec<SharedPoint> {
         self.shared_where(from, to, |a, b| a == b)
     }
 
-    /// Points seen in two pictures whose links without a corner, counted up to either, are accepted.
+    /// Points seen in two images whose links without a corner, counted up to either, are accepted.
     fn shared_where(&self, from: usize, to: usize, accept: impl Fn(u32, u32) -> bool) -> Vec<SharedPoint> {
         let (a, b) = (self.observations(from), self.observations(to));
-        let followed = |picture: usize, i: usize| self.followed[self.starts[picture] + i];
+        let followed = |image: usize, i: usize| self.followed[self.starts[image] + i];
         let partner = |(i, a): (usize, &TrackObservation)| {
             let j = b.binary_search_by_key(&a.track_id, |o| o.track_id).ok()?;
             let variance_px2 = b[j].sigma_px.powi(2) - a.sigma_px.powi(2);
@@ -109,13 +110,13 @@ impl Tracks {
         a.iter().enumerate().filter_map(partner).collect()
     }
 
-    /// Every picture's observations, in order of the picture.
+    /// Every image's observations, in order of the image.
     pub fn into_observations(self) -> Vec<TrackObservation> {
         self.observations
     }
 }
 
-/// The point in the next picture: through the patch where there is a link, else as the corner moved.
+/// The point in the next image: through the patch where there is a link, else as the corner moved.
 fn carry(start: &TrackPoint, corner_px: &Vector2<f64>, (next, link): (&Feature, Option<Link>)) -> TrackPoint {
     let off = start.pixel_px - corner_px;
     let (pixel_px, sigma_px, scale) = match link {
@@ -125,6 +126,6 @@ fn carry(start: &TrackPoint, corner_px: &Vector2<f64>, (next, link): (&Feature, 
     TrackPoint { pixel_px, sigma_px: (scale * start.sigma_px).hypot(sigma_px), ..*start }
 }
 
-fn with_response((point, feature): (&Option<TrackPoint>, &Feature)) -> Option<Loose> {
-    point.map(|point| Loose { point, response: feature.response })
+fn with_response((point, feature): (&Option<TrackPoint>, &Feature)) -> Option<CoastedTrack> {
+    point.map(|point| CoastedTrack { point, response: feature.response })
 }

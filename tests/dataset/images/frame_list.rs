@@ -11,7 +11,7 @@ fn timed(folder: &Path, times: FrameTimes) -> Result<Vec<i64>, DatasetError> {
 }
 
 #[test]
-fn the_size_of_most_pictures_is_the_cameras() {
+fn the_size_of_most_images_is_the_cameras() {
     let dir = folder();
     for (name, width) in [("a1.png", 32), ("a2.png", 64), ("a3.png", 64)] {
         put(dir.path(), name, grey(width, 48));
@@ -64,7 +64,7 @@ fn names_that_are_no_increasing_times_are_refused() {
 }
 
 #[test]
-fn a_rate_spaces_the_pictures() {
+fn a_rate_spaces_the_images() {
     let dir = folder();
     for name in ["a1.png", "a2.png", "a10.png"] {
         put(dir.path(), name, grey(64, 48));
@@ -102,7 +102,7 @@ fn a_list_gives_order_and_times() {
 }
 
 #[test]
-fn bad_lists_are_refused_with_the_line_and_a_lost_picture_is_not() {
+fn bad_lists_are_refused_with_the_line_and_a_lost_image_is_not() {
     let dir = folder();
     for name in ["x.png", "z.png"] {
         put(dir.path(), name, grey(64, 48));

@@ -35,7 +35,7 @@ where
 }
 
 #[test]
-fn every_kind_of_picture_is_read_as_the_same_grey() {
+fn every_kind_of_image_is_read_as_the_same_grey() {
     let shallow = DynamicImage::ImageLuma8(ramp());
     let colour = DynamicImage::ImageRgb8(shallow.to_rgb8());
     let deep =
@@ -70,7 +70,7 @@ fn every_kind_of_picture_is_read_as_the_same_grey() {
 }
 
 #[test]
-fn floating_point_pictures_share_one_scale_and_survive_what_is_not_a_number() {
+fn floating_point_images_share_one_scale_and_survive_what_is_not_a_number() {
     let dir = folder();
     let values = |gain: f32| -> Vec<f32> { ramp().pixels().map(|p| gain * (f32::from(p.0[0]) - 100.0)).collect() };
     let mut bad = values(0.01);
@@ -129,7 +129,7 @@ fn bits_in_use_are_found_and_noted() {
 }
 
 #[test]
-fn pictures_cut_short_are_named() {
+fn images_cut_short_are_named() {
     let shallow = DynamicImage::ImageLuma8(ramp());
     let formats = [
         ("png", ImageFormat::Png),
@@ -175,7 +175,7 @@ fn promised(width: u32, height: u32) -> Vec<u8> {
 }
 
 #[test]
-fn pictures_too_large_to_hold_are_refused_by_their_header() {
+fn images_too_large_to_hold_are_refused_by_their_header() {
     let dir = folder();
     let path = put(dir.path(), "a1.png", promised(20_000, 20_000));
     let words =

@@ -31,7 +31,7 @@ fn data_sets_and_euroc_folders_open() {
 }
 
 #[test]
-fn sixteen_bit_and_colour_pictures_become_grey() {
+fn sixteen_bit_and_colour_images_become_grey() {
     let dir = folder();
     let deep = ImageBuffer::from_pixel(64, 48, Luma([0x8080u16]));
     put(dir.path(), "1.png", png(&DynamicImage::ImageLuma16(deep)));
@@ -118,7 +118,7 @@ fn a_missing_camera_or_folder_comes_with_the_cure() {
 }
 
 #[test]
-fn pictures_of_the_wrong_size_or_broken_are_named() {
+fn images_of_the_wrong_size_or_broken_are_named() {
     let dir = folder();
     sequence(dir.path());
     let sequence = ImageSequence::open(dir.path(), &CameraSource::Folder).expect("open");

@@ -73,7 +73,7 @@ fn features_about_to_leave_are_not_chosen() {
     };
     let estimate = DescentEstimate { state: state.clone(), covariance: DMatrix::identity(9, 9) };
     let view = viewpoint(&estimate, &increment, 1e-3, &LandingConfig::default());
-    let in_picture = |direction_in_site: Vector3<f64>, images: usize| {
+    let in_image = |direction_in_site: Vector3<f64>, images: usize| {
         let direction = Unit::new_normalize(now.lander_from_site * direction_in_site);
         let bearing = BearingObservation::from_sigma(1, direction, 1e-3);
         survives(&state, &bearing, &mount, &LookAhead { view: &view, increment: &increment, images, margin_px: 4.0 })
@@ -81,10 +81,10 @@ fn features_about_to_leave_are_not_chosen() {
     let ahead = view.course_in_site();
     for (tangent, stays) in [(0.5, true), (-0.2, true), (-0.7, false)] {
         let direction = ahead * tangent - Vector3::z();
-        assert!(in_picture(direction, 0), "{tangent} is in the picture now");
-        assert_eq!(in_picture(direction, 3), stays, "{tangent} after three more images");
+        assert!(in_image(direction, 0), "{tangent} is in the picture now");
+        assert_eq!(in_image(direction, 3), stays, "{tangent} after three more images");
     }
-    assert!(!in_picture(Vector3::z(), 0));
+    assert!(!in_image(Vector3::z(), 0));
 }
 
 #[test]

@@ -42,7 +42,7 @@ fn unusable_input_gives_one_clear_error() {
 }
 
 #[test]
-fn files_hold_every_picture_and_no_invented_number() {
+fn files_hold_every_image_and_no_invented_number() {
     let folder = tempfile::tempdir().unwrap();
     let sequence = simulate(rate_rad_s(), RATIOS, &design(60.0, 1.0), 1.0, 1);
     let result = run(&sequence, &TumblingConfig::default());

@@ -78,7 +78,7 @@ fn a_read_only_folder_is_named() {
 
 /// A picture without anything to see in it is drawn, for it may be meant, but never without a word.
 #[test]
-fn pictures_of_nothing_are_told() {
+fn images_of_nothing_are_told() {
     let folder = TempDir::new().expect("a temporary folder");
     let text = "[[cameras]]\nwidth_px = 32\nheight_px = 32\n[[cameras]]\nwidth_px = 32\nheight_px = 32\n\
                 turn_deg = [0.0, 120.0, 0.0]\n[tumbling]\nframes = 3\n[tumbling.shape.procedural]\nsubdivisions = 3\n";

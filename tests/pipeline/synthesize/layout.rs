@@ -85,7 +85,7 @@ fn nodes_have_their_cameras_measurements_and_truth() {
 }
 
 #[test]
-fn two_cameras_have_their_own_pictures_and_flow_agrees_with_landmarks() {
+fn two_cameras_have_their_own_images_and_flow_agrees_with_landmarks() {
     let (_folder, root) = made(SMALL);
     for number in [0, 1] {
         let camera = CameraId::single(number);

@@ -156,7 +156,7 @@ fn ground_is_whole_steady_and_never_the_same() {
 }
 
 #[test]
-fn a_picture_of_two_equal_tiles_is_noticed() {
+fn a_image_of_two_equal_tiles_is_noticed() {
     let terrain = Terrain::new(&TerrainConfig::default(), 3);
     let camera = Camera::from_fov(160, 160, 1.2);
     let frame = renderer(&terrain, &camera).render(&look_down(&terrain, [900.0, 400.0], 2000.0)).expect("a picture");

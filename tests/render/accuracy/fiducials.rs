@@ -1,7 +1,7 @@
 //! Discs at known places, against the pixels that the camera model gives them.
 
 use super::{Bar, Extent, Tamper, awkward_camera, check, check_refused, rolled};
-use crate::render::picture_polygon::PicturePolygon;
+use crate::render::image_polygon::ImagePolygon;
 use crate::render::{gpu, plain};
 use nalgebra::{Isometry3, Point3, Unit, UnitQuaternion, Vector2, Vector3};
 use opnav::geometry::{Camera, Distortion};
@@ -32,7 +32,7 @@ fn lenses() -> [(&'static str, Camera); 3] {
 /// Discs over the whole field, with the outline in the picture of each.
 struct Discs {
     mesh: Mesh,
-    outlines: Vec<PicturePolygon>,
+    outlines: Vec<ImagePolygon>,
 }
 
 fn discs(camera: &Camera, pose: &Isometry3<f64>, range_m: f64, random: &mut impl rand::Rng) -> Discs {
@@ -57,7 +57,7 @@ fn discs(camera: &Camera, pose: &Isometry3<f64>, range_m: f64, random: &mut impl
             center_m + facing * tilt * Vector3::new(angle.cos(), angle.sin(), 0.0) * radius_m
         };
         let corners: Vec<Vector3<f64>> = (0..CORNERS).map(|k| corner(k as f64 / CORNERS as f64)).collect();
-        discs.outlines.push(PicturePolygon::of(camera, &corners));
+        discs.outlines.push(ImagePolygon::of(camera, &corners));
         let first = discs.mesh.vertices_m.len() as u32;
         discs.mesh.vertices_m.push((pose * Point3::from(center_m)).coords);
         discs.mesh.vertices_m.extend(corners.iter().map(|c| (pose * Point3::from(*c)).coords));
@@ -68,7 +68,7 @@ fn discs(camera: &Camera, pose: &Isometry3<f64>, range_m: f64, random: &mut impl
 }
 
 /// Centroid of the light around an outline; `None` if there is none.
-fn centroid(frame: &RenderedFrame, outline: &PicturePolygon) -> Option<Vector2<f64>> {
+fn centroid(frame: &RenderedFrame, outline: &ImagePolygon) -> Option<Vector2<f64>> {
     let (low, high) = outline.pixels(3.0);
     let (mut total, mut weight) = (Vector2::zeros(), 0.0);
     let within = |at: i64, size: u32| (0..i64::from(size)).contains(&at);

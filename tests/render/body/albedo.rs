@@ -4,7 +4,7 @@ use crate::render::{look_at, nearest_hit, plain, ray, render, sphere};
 use nalgebra::{Vector2, Vector3};
 use opnav::geometry::Camera;
 use opnav::render::{RenderConfig, RenderedFrame, World};
-use opnav::scene::{AlbedoImage, GlobeMap, Mesh, MeshAlbedo, PictureEdge, SmallBody, View};
+use opnav::scene::{AlbedoImage, GlobeMap, ImageEdge, Mesh, MeshAlbedo, SmallBody, View};
 use std::f64::consts::TAU;
 
 /// One sample a pixel, at its centre.
@@ -21,7 +21,7 @@ fn view() -> View {
 }
 
 /// A smooth picture without any symmetry, mean near 1.
-fn picture(width_px: u32, height_px: u32, vertical_edge: PictureEdge) -> AlbedoImage {
+fn picture(width_px: u32, height_px: u32, vertical_edge: ImageEdge) -> AlbedoImage {
     let value = |k: u32| {
         let (x, y) = (f64::from(k % width_px) / f64::from(width_px), f64::from(k / width_px) / f64::from(height_px));
         (1.0 + 0.4 * (TAU * (2.0 * x + 0.3)).sin() + 0.3 * (4.0 * y * y - 1.0) + 0.2 * (TAU * (x + 3.0 * y)).cos())
@@ -85,7 +85,7 @@ fn corners(mesh: &Mesh) -> Vec<[[f32; 2]; 3]> {
 
 #[test]
 fn texture_is_drawn_where_its_twin_says() {
-    let image = picture(48, 40, PictureEdge::Repeat);
+    let image = picture(48, 40, ImageEdge::Repeat);
     let albedo = MeshAlbedo::Texture { corners: corners(&sphere(24, |_| 100.0)), image };
     let drawn = frame(albedo.clone());
     let twin = body(albedo.clone()).mesh;
@@ -101,7 +101,7 @@ fn texture_is_drawn_where_its_twin_says() {
 #[test]
 fn map_is_drawn_where_its_twin_says() {
     let map = |west_edge_rad: f64| {
-        let image = picture(64, 32, PictureEdge::Clamp);
+        let image = picture(64, 32, ImageEdge::Clamp);
         MeshAlbedo::Globe(GlobeMap { image, west_edge_rad, origin_m: Vector3::new(3.0, -4.0, 2.0) })
     };
     for west_edge_rad in [-TAU / 2.0, 0.6] {
@@ -129,7 +129,7 @@ fn albedo_of_vertices_is_drawn_linearly_across_faces() {
 #[test]
 fn fine_maps_fade_to_their_mean_instead_of_flickering() {
     let chequered = (0..2048 * 1024).map(|k| if (k % 2048 + k / 2048) % 2 == 0 { 0.2 } else { 1.8 }).collect();
-    let image = AlbedoImage::new(2048, 1024, chequered, PictureEdge::Clamp);
+    let image = AlbedoImage::new(2048, 1024, chequered, ImageEdge::Clamp);
     let albedo = MeshAlbedo::Globe(GlobeMap { image, west_edge_rad: 0.0, origin_m: Vector3::zeros() });
     let uniform = frame(MeshAlbedo::Uniform);
     let drawn = frame(albedo);
@@ -141,7 +141,7 @@ fn fine_maps_fade_to_their_mean_instead_of_flickering() {
 
 #[test]
 fn supersampled_albedo_is_the_mean_of_its_samples() {
-    let image = picture(64, 32, PictureEdge::Clamp);
+    let image = picture(64, 32, ImageEdge::Clamp);
     let map = MeshAlbedo::Globe(GlobeMap { image, west_edge_rad: 0.0, origin_m: Vector3::zeros() });
     let smooth = RenderConfig { supersampling: 4, ..sharp() };
     let fine = render(World::Body(&body(map.clone())), &camera(), &smooth, &view());

@@ -7,7 +7,7 @@ use opnav::render::{RenderConfig, RenderedFrame, Renderer, World};
 use opnav::scene::{BodySurface, SmallBody, Terrain, TerrainConfig};
 
 #[test]
-fn pictures_are_reproducible_whatever_came_before() {
+fn images_are_reproducible_whatever_came_before() {
     let terrain = Terrain::new(&TerrainConfig::default(), 3);
     let camera = Camera::from_fov(192, 160, 1.5);
     let view = look_down(&terrain, [40.0, -20.0], 300.0);

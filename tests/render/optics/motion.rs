@@ -78,7 +78,7 @@ fn moments(frame: &RenderedFrame) -> (f64, Vector2<f64>, Vector3<f64>) {
 }
 
 #[test]
-fn without_time_the_picture_is_the_still_one_bit_for_bit() {
+fn without_time_the_image_is_the_still_one_bit_for_bit() {
     let view_at = turning(Vector3::new(0.1, 0.3, 0.2));
     let body = SmallBody { mesh: point(), surface: plain() };
     let mut renderer = Renderer::new(&gpu(), World::Body(&body), &camera(), &fine()).expect("ready");
@@ -173,7 +173,7 @@ fn a_rolling_shutter_shears_what_passes() {
 }
 
 #[test]
-fn few_pictures_are_enough_where_little_moves() {
+fn few_images_are_enough_where_little_moves() {
     // The limit of sub-pictures keeps the smear's length: only its evenness suffers.
     let view_at = turning(Vector3::new(0.0, 0.04, 0.0));
     let (_, _, still) = moments(&exposed(point(), &shutter(0.0, 0.0), &view_at));

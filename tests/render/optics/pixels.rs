@@ -73,7 +73,7 @@ pub(super) fn centroid(frame: &RenderedFrame, near_px: &Vector2<f64>) -> Vector2
 }
 
 #[test]
-fn up_in_the_world_is_up_in_the_picture() {
+fn up_in_the_world_is_up_in_the_image() {
     let mut mesh = Mesh::default();
     add_disc(&mut mesh, &Vector3::new(0.0, 10.0, 0.0), 4.0);
     let body = SmallBody { mesh, surface: plain() };

@@ -45,7 +45,7 @@ fn variance_in_time(config: &SensorConfig, frame: &RenderedFrame) -> f64 {
 }
 
 /// Mean over ten pictures, pixel by pixel.
-fn mean_of_pictures(config: &SensorConfig, frame: &RenderedFrame) -> Vec<f64> {
+fn mean_of_images(config: &SensorConfig, frame: &RenderedFrame) -> Vec<f64> {
     let mut sum = vec![0.0; frame.radiance.len()];
     for t_ns in 0..10 {
         sum.iter_mut().zip(electrons(config, frame, t_ns)).for_each(|(sum, value)| *sum += 0.1 * value);
@@ -125,14 +125,14 @@ fn response_differs_from_pixel_to_pixel_and_stays() {
     let fixed_pattern = FixedPatternConfig { response_sigma: 0.02, ..FixedPatternConfig::default() };
     let config = SensorConfig { fixed_pattern, ..bare() };
     let frame = even(20_000.0);
-    let mean_picture = mean_of_pictures(&config, &frame);
-    let (mean, variance) = moments(&mean_picture);
+    let mean_image = mean_of_images(&config, &frame);
+    let (mean, variance) = moments(&mean_image);
     let response_sigma = (variance - 0.1 * mean).sqrt() / mean;
     assert!((response_sigma / 0.02 - 1.0).abs() < 0.02, "PRNU {response_sigma}");
     // It is no noise in time, and it is none of the offsets: in the dark nothing is left.
     assert!(agrees(variance_in_time(&config, &frame), 20_000.0 * (1.0 + 0.02 * 0.02)));
     assert_eq!(moments(&electrons(&config, &even(0.0), 1)).1, 0.0);
-    let (_, smooth) = moments(&mean_of_pictures(&bare(), &frame));
+    let (_, smooth) = moments(&mean_of_images(&bare(), &frame));
     assert!((smooth - 2_000.0).abs() < 60.0, "without PRNU: {smooth}");
 }
 
@@ -140,12 +140,12 @@ fn response_differs_from_pixel_to_pixel_and_stays() {
 fn offset_differs_from_pixel_to_pixel_and_stays() {
     let fixed_pattern = FixedPatternConfig { offset_sigma_electrons: 25.0, ..FixedPatternConfig::default() };
     let config = SensorConfig { fixed_pattern, read_noise_electrons: 5.0, ..bare() };
-    let (mean, variance) = moments(&mean_of_pictures(&config, &even(0.0)));
+    let (mean, variance) = moments(&mean_of_images(&config, &even(0.0)));
     let sigma = (variance - 0.1 * (25.0 + 1.0 / 12.0)).sqrt();
     assert!(mean.abs() < 0.5 && (sigma / 25.0 - 1.0).abs() < 0.015, "DSNU {sigma}, mean {mean}");
     assert!(agrees(variance_in_time(&config, &even(0.0)), 25.0 + 1.0 / 12.0));
     // The same however bright the picture is.
-    let (_, bright) = moments(&mean_of_pictures(&config, &even(10_000.0)));
+    let (_, bright) = moments(&mean_of_images(&config, &even(10_000.0)));
     assert!(((bright - 1_002.5).sqrt() / 25.0 - 1.0).abs() < 0.05, "{bright}");
 }
 
@@ -155,7 +155,7 @@ fn hot(values: &[f64]) -> Vec<(usize, f64)> {
 }
 
 #[test]
-fn hot_pixels_are_as_many_as_stated_and_the_same_in_every_picture() {
+fn hot_pixels_are_as_many_as_stated_and_the_same_in_every_image() {
     let fixed_pattern = FixedPatternConfig {
         hot_pixel_fraction: 0.01,
         hot_pixel_electrons_s: 5_000.0,

@@ -85,7 +85,7 @@ fn the_terminator_band_lies_between_80_and_100_degrees() {
 }
 
 #[test]
-fn albedo_in_the_picture_is_that_of_the_terrain() {
+fn albedo_in_the_image_is_that_of_the_terrain() {
     let terrain = Terrain::new(&flat(), 4);
     let stranger = Terrain::new(&flat(), 5);
     let camera = Camera::from_fov(256, 256, 1.2);
@@ -114,7 +114,7 @@ fn albedo_in_the_picture_is_that_of_the_terrain() {
 
 /// Nothing shadows a sphere but itself: every pixel that faces the Sun is lit, however few there are.
 #[test]
-fn a_sphere_of_any_size_in_the_picture_is_lit_where_it_faces_the_sun() {
+fn a_sphere_of_any_size_in_the_image_is_lit_where_it_faces_the_sun() {
     let body = SmallBody { mesh: sphere(160, |_| 100.0), surface: plain() };
     let camera = Camera { center_px: Vector2::new(79.8, 80.1), ..Camera::from_fov(160, 160, 0.3) };
     for (radius_px, least) in [(2.0, 8), (5.0, 50), (20.0, 1000), (60.0, 9000)] {

@@ -2,7 +2,7 @@
 
 use crate::scene::{datasets, scenario};
 use nalgebra::Vector3;
-use opnav::scene::{AlbedoImage, GlobeMap, Mesh, MeshAlbedo, PictureEdge, Scene, SmallBody};
+use opnav::scene::{AlbedoImage, GlobeMap, ImageEdge, Mesh, MeshAlbedo, Scene, SmallBody};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -24,15 +24,15 @@ fn body(folder: &Path, text: &str) -> Result<SmallBody, String> {
 }
 
 #[test]
-fn pictures_are_read_between_pixel_centres() {
-    let image = AlbedoImage::new(4, 2, vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0], PictureEdge::Clamp);
+fn images_are_read_between_pixel_centres() {
+    let image = AlbedoImage::new(4, 2, vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0], ImageEdge::Clamp);
     assert_eq!(image.at([0.125, 0.25]), 0.0);
     assert_eq!(image.at([0.25, 0.25]), 0.5);
     assert_eq!(image.at([0.125, 0.5]), 2.0);
     assert_eq!(image.at([0.0, 0.25]), 1.5, "the left edge meets the right one");
     assert_eq!(image.at([0.125, 0.0]), 0.0, "the upper edge goes on");
     assert_eq!(image.at([1.375, 0.75]), 5.0, "it starts again");
-    let tiled = AlbedoImage::new(1, 2, vec![1.0, 3.0], PictureEdge::Repeat);
+    let tiled = AlbedoImage::new(1, 2, vec![1.0, 3.0], ImageEdge::Repeat);
     assert_eq!(tiled.at([0.5, 0.0]), 2.0);
 }
 
@@ -95,7 +95,7 @@ fn map_lies_by_longitude_and_latitude() {
 
 #[test]
 fn map_stays_where_it_was_when_the_mesh_moves() {
-    let image = AlbedoImage::new(4, 2, (0..8).map(|k| k as f32).collect(), PictureEdge::Clamp);
+    let image = AlbedoImage::new(4, 2, (0..8).map(|k| k as f32).collect(), ImageEdge::Clamp);
     let map = GlobeMap { image, west_edge_rad: -PI, origin_m: Vector3::zeros() };
     let mesh = Mesh { albedo: MeshAlbedo::Globe(map), ..Mesh::icosphere(2) };
     let moved = mesh.clone().translated(&Vector3::new(0.3, -2.0, 5.0));

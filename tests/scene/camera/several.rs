@@ -3,7 +3,7 @@
 use crate::scene::{datasets, scenario};
 use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector2, Vector3};
 use opnav::geometry::{Camera, Distortion, so3};
-use opnav::scene::{DepthPicture, Scenario, Scene, View, optical_flow};
+use opnav::scene::{DepthImage, Scenario, Scene, View, optical_flow};
 
 const TWO: &str = "[sensor]\nbits = 6\n[[cameras]]\nwidth_px = 64\nheight_px = 64\n[[cameras]]\nwidth_px = 96\nheight_px = 48\n\
                    fov_deg = 50\nturn_deg = [0, 20, 0]\noffset_m = [0.5, 0, 0.1]\n[cameras.sensor]\nbits = 7\n";
@@ -110,7 +110,7 @@ fn flow_of_a_plane_is_the_exact_motion_for_every_lens() {
         let first = view(Vector3::new(1.0, -2.0, 0.0), UnitQuaternion::identity());
         let next = view(Vector3::new(4.0, -1.0, 12.0), so3::exp(&Vector3::new(0.01, -0.02, 0.1)));
         let [a, b] = [&first, &next].map(|v| depths(&camera, v, plane));
-        let [depth, next_depth] = [&a, &b].map(|d| DepthPicture { width_px: 64, depth_m: d });
+        let [depth, next_depth] = [&a, &b].map(|d| DepthImage { width_px: 64, depth_m: d });
         let flow = optical_flow(&camera, (&first, &depth), (&next, &next_depth));
         let exact = |index: usize, from: &View, to: &View| {
             let pixel = Vector2::new((index % 64) as f64, (index / 64) as f64);
@@ -134,7 +134,7 @@ fn flow_of_a_plane_is_the_exact_motion_for_every_lens() {
 
 /// A post in front of a wall: what it hides in the next picture has no flow, what it does not hide has.
 #[test]
-fn what_is_hidden_in_the_next_picture_has_no_flow() {
+fn what_is_hidden_in_the_next_image_has_no_flow() {
     let camera = Camera::from_fov(200, 20, 1.0);
     let scene = |eye: Vector3<f64>, ray: Vector3<f64>| {
         let near = (20.0 - eye.z) / ray.z;
@@ -144,7 +144,7 @@ fn what_is_hidden_in_the_next_picture_has_no_flow() {
     let first = view(Vector3::zeros(), UnitQuaternion::identity());
     let next = view(Vector3::new(3.0, 0.0, 0.0), UnitQuaternion::identity());
     let [a, b] = [&first, &next].map(|v| depths(&camera, v, scene));
-    let [depth, next_depth] = [&a, &b].map(|d| DepthPicture { width_px: 200, depth_m: d });
+    let [depth, next_depth] = [&a, &b].map(|d| DepthImage { width_px: 200, depth_m: d });
     let flow = optical_flow(&camera, (&first, &depth), (&next, &next_depth));
     let mut counts = [0; 2];
     for u in 0..200_usize {

@@ -23,13 +23,13 @@ fn scene_has_states_samples_and_views_on_one_clock() {
         assert_eq!(view.reference_from_camera, expected);
         let down = view.reference_from_camera * Vector3::z();
         assert!((down + state.site_from_lander * Vector3::z()).norm() < 1e-12);
-        let up_in_picture = view.reference_from_camera * -Vector3::y();
-        assert!((up_in_picture - state.site_from_lander * Vector3::y()).norm() < 1e-12);
+        let up_in_image = view.reference_from_camera * -Vector3::y();
+        assert!((up_in_image - state.site_from_lander * Vector3::y()).norm() < 1e-12);
     }
 }
 
 #[test]
-fn canted_narrow_camera_keeps_the_site_in_its_pictures() {
+fn canted_narrow_camera_keeps_the_site_in_its_images() {
     let canted =
         "[camera]\nfov_deg = 60\n[descent.camera_mount]\ncant_deg = 20\n[descent.schedule.uniform]\nrate_hz = 1\n";
     let scene = descent(canted);

@@ -4,7 +4,7 @@ use super::{STEP_NS, path};
 use opnav::scene::FrameSchedule;
 
 #[test]
-fn constant_scale_pictures_shrink_the_height_by_one_ratio() {
+fn constant_scale_images_shrink_the_height_by_one_ratio() {
     let schedule = FrameSchedule::ConstantScale { count: 60, end_height_m: 15.0 };
     let times_ns = schedule.times_ns(&path(), STEP_NS).unwrap();
     assert_eq!((times_ns.len(), times_ns[0]), (60, 0));
@@ -21,7 +21,7 @@ fn constant_scale_pictures_shrink_the_height_by_one_ratio() {
 }
 
 #[test]
-fn uniform_pictures_end_at_the_height_or_the_time() {
+fn uniform_images_end_at_the_height_or_the_time() {
     let times = |rate_hz, start_s, end_s| {
         FrameSchedule::Uniform { rate_hz, start_s, end_s, end_height_m: 15.0 }.times_ns(&path(), STEP_NS).unwrap()
     };

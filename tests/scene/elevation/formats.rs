@@ -2,9 +2,9 @@
 
 mod faults;
 mod geotiff;
+mod images;
 mod mars;
 mod pds;
-mod pictures;
 
 use opnav::scene::{Raster, RasterFile, RasterGeometry, SceneError};
 use tempfile::TempDir;

@@ -2,7 +2,7 @@
 
 use image::{GrayImage, imageops};
 use nalgebra::{Isometry3, Matrix3, Unit, UnitQuaternion, Vector2, Vector3};
-use opnav::evaluation::PictureStatistics;
+use opnav::evaluation::ImageStatistics;
 use opnav::geometry::{Camera, Distortion};
 use opnav::render::{Detector, Gpu, RenderConfig, Renderer, World};
 use opnav::scene::{SensorConfig, Terrain, TerrainConfig, View, sun_angular_radius_rad};
@@ -75,10 +75,10 @@ fn rendered(renderer: &mut Renderer, terrain: &Terrain, number: usize, height_m:
 
 /// Slope of the spectrum, kurtosis of gradients, spread of grey levels, number of Harris features.
 fn row(picture: &GrayImage) -> [f64; 4] {
-    let statistics = PictureStatistics::of(picture).expect("a picture with texture");
+    let statistics = ImageStatistics::of(picture).expect("a picture with texture");
     let detector = DetectorConfig { max_features: 100_000, max_peak_width_px: 1e9, ..DetectorConfig::default() };
     let features = detect_features(picture, None, &detector).expect("features").len();
-    let PictureStatistics { spectrum_slope, gradient_kurtosis, grey_spread_dn } = statistics;
+    let ImageStatistics { spectrum_slope, gradient_kurtosis, grey_spread_dn } = statistics;
     [spectrum_slope, gradient_kurtosis, grey_spread_dn, features as f64]
 }
 

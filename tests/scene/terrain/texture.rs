@@ -59,7 +59,7 @@ fn hold(found: &[(f64, usize, usize)]) {
 }
 
 #[test]
-fn the_first_and_the_last_picture_of_the_descent_have_texture() {
+fn the_first_and_the_last_image_of_the_descent_have_texture() {
     hold(&features(&[0.0, 1.0]));
 }
 

@@ -90,7 +90,7 @@ fn scene_is_the_papers_case_by_default() {
 }
 
 #[test]
-fn body_fills_its_share_of_the_picture_and_stays_in_place() {
+fn body_fills_its_share_of_the_image_and_stays_in_place() {
     let scene = tumbling(&SMALL.replace("frames = 8", "frames = 8\nfill_fraction = 0.8\ncenter_offset_px = [10, -6]"));
     let camera = scene.cameras[0].sensor.camera;
     let (mut widest_px, radius_m) = (0.0_f64, scene.body.mesh.radius_m());

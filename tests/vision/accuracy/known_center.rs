@@ -42,16 +42,16 @@ struct Pair {
 type Points = BTreeMap<u64, (Vector2<f64>, f64)>;
 
 /// A picture's points, with its true pose and depths.
-struct Picture {
+struct PageImage {
     t_ns: i64,
     points: Points,
     reference_from_camera: Isometry3<f64>,
     depth_m: image::ImageBuffer<image::Luma<f32>, Vec<f32>>,
 }
 
-impl Picture {
+impl PageImage {
     /// Where the surface point at a pixel truly is in another picture; `None` where no surface is.
-    fn true_pixel(&self, pixel_px: &Vector2<f64>, other: &Picture, camera: &Camera) -> Option<Vector2<f64>> {
+    fn true_pixel(&self, pixel_px: &Vector2<f64>, other: &PageImage, camera: &Camera) -> Option<Vector2<f64>> {
         let (u, v) = (pixel_px.x as u32, pixel_px.y as u32);
         let depth_m = |i, j| self.depth_m.get_pixel_checked(u + i, v + j).map_or(f64::NAN, |d| f64::from(d.0[0]));
         let (s, t) = (pixel_px.x.fract(), pixel_px.y.fract());
@@ -76,9 +76,9 @@ pub fn with_known_center(images: &Path, tracks: &Path) -> KnownCenter {
     let picture = |pose: &StampedPose| {
         let depth_m = read_depth_tiff(&images.join(format!("truth/depth/cam0/{}.tiff", pose.t_ns))).expect("depths");
         let points = points.get(&pose.t_ns)?.clone();
-        Some(Picture { t_ns: pose.t_ns, points, reference_from_camera: pose.reference_from_moving, depth_m })
+        Some(PageImage { t_ns: pose.t_ns, points, reference_from_camera: pose.reference_from_moving, depth_m })
     };
-    let all: Vec<Picture> = poses.iter().filter_map(picture).collect();
+    let all: Vec<PageImage> = poses.iter().filter_map(picture).collect();
     let spanned =
         |span: &usize| all.windows(span + 1).map(|w| pair(&w[0], w.last().expect("the second"), camera)).collect();
     let pairs: Vec<Pair> = SPANS.iter().flat_map(|span| -> Vec<Pair> { spanned(span) }).collect();
@@ -124,7 +124,7 @@ impl Pair {
     }
 }
 
-fn pair(first: &Picture, second: &Picture, camera: &Camera) -> Pair {
+fn pair(first: &PageImage, second: &PageImage, camera: &Camera) -> Pair {
     /// Further off than this, a point is not the same one, px.
     const FARTHEST_PX: f64 = 1.5;
     const LEAST_SIGMA_PX: f64 = 0.05;

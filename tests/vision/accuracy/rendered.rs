@@ -79,7 +79,7 @@ fn depth(frame: &RenderedFrame, pixel_px: &Vector2<f64>) -> Option<f64> {
     (depth_m.is_finite() && high < low * (1.0 + SAME_DEPTH)).then_some(depth_m)
 }
 
-/// Straight down from above a place of the ground, then nearer by a share of the height and rolled about the axis of sight.
+/// Straight down from above a place of the ground, then nearer by a share of the height and rolled about the axis of matched.
 pub fn descent(terrain: &Terrain, [x_m, y_m]: [f64; 2], height_m: f64, (share, roll_rad): (f64, f64)) -> [View; 2] {
     let down = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
     let ground = Vector3::new(x_m, y_m, terrain.height_m(x_m, y_m));

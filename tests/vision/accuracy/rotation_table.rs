@@ -117,7 +117,7 @@ impl Outcome {
             PairHints { camera_to_from_camera_from: kind.hinted.then(|| off * scene.rotation), ..PairHints::default() };
         let matches = PixelMatches { pair: &pair, sigma_px: &sigma_px };
         let white = RotationConfig {
-            noise: PairNoise { smooth_error_share: 0.0, ..PairNoise::default() },
+            noise: PairNoise { correlated_error_share: 0.0, ..PairNoise::default() },
             ..RotationConfig::default()
         };
         let solution = relative_rotation(matches, &scene.camera, &hints, &white).expect("OpenCV");

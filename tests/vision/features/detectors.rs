@@ -86,7 +86,7 @@ fn errors_are_as_large_as_predicted() {
 }
 
 #[test]
-fn flat_and_saturated_pictures_have_no_features() {
+fn flat_and_saturated_images_have_no_features() {
     let burnt = picture(SIDE, SIDE, 0.0, 1, |p| p);
     let burnt = GrayImage::from_fn(SIDE, SIDE, |u, v| Luma([burnt.get_pixel(u, v).0[0].saturating_mul(2)]));
     let is_white = |f: &&Feature| {

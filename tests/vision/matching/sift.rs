@@ -64,7 +64,7 @@ fn same(
 }
 
 #[test]
-fn a_turned_and_brightened_picture_matches_itself() {
+fn a_turned_and_brightened_image_matches_itself() {
     let plain = ground();
     let here = features(&plain);
     let mut bright = imageops::rotate90(&plain);

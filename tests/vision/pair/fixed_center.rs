@@ -58,7 +58,7 @@ pub fn solve_held(sequence: &Sequence, guess_off_rad: f64, center_sigma_rad: f64
         camera: &sequence.scenes[0].camera,
         center_guess: Unit::new_normalize(guess),
         config: &FixedCenterConfig {
-            noise: BodyNoise { smooth_error_share: 0.0, ..BodyNoise::default() },
+            noise: BodyNoise { correlated_error_share: 0.0, ..BodyNoise::default() },
             center_sigma_rad,
             ..FixedCenterConfig::default()
         },

@@ -151,7 +151,7 @@ fn random_matches_give_no_rotation() {
 }
 
 #[test]
-fn swapping_the_pictures_inverts_the_rotation() {
+fn swapping_the_images_inverts_the_rotation() {
     let scene = ellipsoid(camera(), 300, &Vector3::new(0.02, 0.08, 0.03), 6);
     let pair = scene.matches(0.2, 0.2, 6);
     let swapped = MatchedPair { from_px: pair.to_px.clone(), to_px: pair.from_px.clone() };
@@ -163,7 +163,7 @@ fn swapping_the_pictures_inverts_the_rotation() {
 }
 
 #[test]
-fn turning_both_pictures_conjugates_the_rotation() {
+fn turning_both_images_conjugates_the_rotation() {
     let scene = ellipsoid(camera(), 300, &Vector3::new(0.02, 0.08, 0.03), 8);
     let pair = scene.matches(0.2, 0.2, 8);
     let quarter = |p: &nalgebra::Vector2<f64>| nalgebra::Vector2::new(1023.0 - p.y, p.x);
@@ -213,10 +213,10 @@ fn nees_with_smooth_errors(share: f64, config: &RotationConfig) -> f64 {
 }
 
 #[test]
-fn errors_that_vary_smoothly_are_in_the_covariance_up_to_what_pictures_show() {
+fn errors_that_vary_smoothly_are_in_the_covariance_up_to_what_images_show() {
     let default = RotationConfig::default();
     let white =
-        RotationConfig { noise: PairNoise { smooth_error_share: 0.0, ..PairNoise::default() }, ..default.clone() };
+        RotationConfig { noise: PairNoise { correlated_error_share: 0.0, ..PairNoise::default() }, ..default.clone() };
     let none = nees_with_smooth_errors(0.0, &white);
     let (usual, absurd) = (nees_with_smooth_errors(0.007, &default), nees_with_smooth_errors(0.3, &default));
     assert!((0.7..1.4).contains(&none) && (0.6..1.6).contains(&usual), "{none}, {usual}");

@@ -50,7 +50,7 @@ fn assert_goes_on_around(result: &FrontEnd, status: FrameStatus) {
 }
 
 #[test]
-fn pictures_that_cannot_be_read_are_outcomes() {
+fn images_that_cannot_be_read_are_outcomes() {
     let folder = tempfile::tempdir().unwrap();
     let result = with_gaps(folder.path(), |s| {
         std::fs::write(&s.frames[2].path, b"not a picture").unwrap();
@@ -64,7 +64,7 @@ fn pictures_that_cannot_be_read_are_outcomes() {
 }
 
 #[test]
-fn pictures_of_another_size_are_outcomes() {
+fn images_of_another_size_are_outcomes() {
     let folder = tempfile::tempdir().unwrap();
     let small = image::imageops::thumbnail(&frame(2), 160, 160);
     let result = with_gaps(folder.path(), |_| {
@@ -77,7 +77,7 @@ fn pictures_of_another_size_are_outcomes() {
 }
 
 #[test]
-fn black_and_white_pictures_are_outcomes() {
+fn black_and_white_images_are_outcomes() {
     let folder = tempfile::tempdir().unwrap();
     let result = with_gaps(folder.path(), |_| {
         replace(folder.path(), 2, &GrayImage::new(SIDE, SIDE));
@@ -100,7 +100,7 @@ fn a_sequence_without_any_feature_is_an_outcome() {
 }
 
 #[test]
-fn a_sequence_of_which_one_picture_is_left_is_refused() {
+fn a_sequence_of_which_one_image_is_left_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let sequence = write(folder.path(), (0..3).map(frame));
     for k in [0, 2] {

@@ -121,7 +121,7 @@ fn a_descent_over_a_plane_gives_rotations_tracks_and_the_designated_point() {
 }
 
 #[test]
-fn the_designated_point_ends_where_it_leaves_the_picture() {
+fn the_designated_point_ends_where_it_leaves_the_image() {
     let folder = tempfile::tempdir().unwrap();
     let shifted = |k: usize| picture(SIDE, SIDE, 1.0, k as u64, move |p| p + Vector2::new(20.0 * k as f64, 0.0));
     let sequence = write(folder.path(), (0..6).map(shifted));
@@ -135,7 +135,7 @@ fn the_designated_point_ends_where_it_leaves_the_picture() {
 }
 
 #[test]
-fn black_pictures_and_a_camera_at_rest_are_outcomes() {
+fn black_images_and_a_camera_at_rest_are_outcomes() {
     let folder = tempfile::tempdir().unwrap();
     let pictures = [frame(0), GrayImage::new(SIDE, SIDE), frame(2), frame(2), frame(3)];
     let sequence = write(folder.path(), pictures.into_iter());

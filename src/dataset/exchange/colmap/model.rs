@@ -3,23 +3,23 @@
 use crate::geometry::Camera;
 use nalgebra::{Isometry3, Vector2, Vector3};
 
-/// Cameras, posed pictures and points.
+/// Cameras, posed images and points.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ColmapModel {
     /// The cameras; COLMAP's number is the place here plus 1.
     pub cameras: Vec<Camera>,
-    /// The pictures; COLMAP's number is the place here plus 1.
+    /// The images; COLMAP's number is the place here plus 1.
     pub images: Vec<ColmapImage>,
     /// The points.
     pub points: Vec<ColmapPoint>,
 }
 
-/// A posed picture.
+/// A posed image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColmapImage {
     /// Place of its camera in [`ColmapModel::cameras`].
     pub camera: usize,
-    /// File name relative to the folder of pictures, without spaces.
+    /// File name relative to the folder of images, without spaces.
     pub name: String,
     /// Pose of the camera in the reference frame, m.
     pub reference_from_camera: Isometry3<f64>,

@@ -11,14 +11,14 @@ use crate::navigation::landing::error_state::{ATTITUDE, BIASES, DescentEstimate,
 use crate::observations::TrackObservation;
 
 /// Contradictions in a row after which a filter that may be wrong is taken to be.
-const PATIENCE: usize = 3;
+const CONTRADICTING_IMAGES: usize = 3;
 /// Largest factor by which a covariance is inflated at once.
 const LARGEST_INFLATION: f64 = 100.0;
 /// Sights of the point that must have agreed before it can be said to have jumped.
-const ACQUAINTANCE: usize = 3;
+const AGREEING_IMAGES: usize = 3;
 /// Normalised innovation squared beyond which a sight after agreeing ones is a jump, 10σ: a smaller one costs little if
 /// it is believed, and may be the filter's own.
-const JUMP: f64 = 100.0;
+const JUMP_NORMALIZED_SQUARED: f64 = 100.0;
 /// Images in a row whose other landmarks are all gated too, after which the filter is no longer thought right: then they
 /// are replaced by new ones, which say nothing of what was before.
 const UNSUPPORTED: usize = 2;
@@ -53,8 +53,8 @@ impl Contradiction {
         let others = || outcomes.iter().filter(|o| !is_point(o));
         let agreeing = others().filter(|o| o.used).count();
         let unsupported = if agreeing == 0 && others().count() > 0 { self.unsupported + 1 } else { 0 };
-        let has_jumped = self.agreements >= ACQUAINTANCE
-            && point.normalized_innovation_squared > JUMP
+        let has_jumped = self.agreements >= AGREEING_IMAGES
+            && point.normalized_innovation_squared > JUMP_NORMALIZED_SQUARED
             && 2 * agreeing >= others().count();
         let point_is_wrong = if self.images == 0 { has_jumped } else { self.point_is_wrong };
         Contradiction {
@@ -68,7 +68,7 @@ impl Contradiction {
 
     /// Whether the filter has been contradicted for long enough, by a point that may well be right.
     pub fn filter_is_wrong(&self) -> bool {
-        self.images >= PATIENCE && !self.point_is_wrong
+        self.images >= CONTRADICTING_IMAGES && !self.point_is_wrong
     }
 
     /// The estimate, of a filter that is wrong with its covariance inflated so far that the last contradiction would be

@@ -15,20 +15,20 @@ use smallvec::smallvec;
 pub type BearingInnovation = Innovation<2, 3>;
 
 /// A point as one bearing sees it.
-struct Sight {
+struct LineOfSight {
     landmark: Option<usize>,
     relative_in_lander_m: Vector3<f64>,
     jacobian: RelativeJacobian,
 }
 
-fn sight(state: &DescentState, bearing: &BearingObservation, model: &CorrectionModel) -> Sight {
+fn sight(state: &DescentState, bearing: &BearingObservation, model: &CorrectionModel) -> LineOfSight {
     let landmark = if bearing.known.is_some() { None } else { state.landmark_of(bearing.track_id) };
     let point_m = match (&bearing.known, landmark) {
         (Some(known), _) => known.position_in_site_m,
         (None, Some(k)) => state.landmarks[k].position_in_site_m,
         (None, None) => Vector3::zeros(),
     };
-    Sight {
+    LineOfSight {
         landmark,
         relative_in_lander_m: state.lander_from_site * (point_m - state.lander_in_site_m) - model.camera_in_lander_m,
         jacobian: model.kind.relative_jacobian(state, &point_m, landmark.is_some()),
@@ -50,7 +50,7 @@ fn linearized(
     state: &DescentState,
     bearing: &BearingObservation,
     noise: &Matrix2<f64>,
-    sight: &Sight,
+    sight: &LineOfSight,
 ) -> Option<BearingInnovation> {
     let predicted = sight.relative_in_lander_m.try_normalize(1e-3)?;
     if predicted.dot(&bearing.direction_in_lander) <= 0.0 {
@@ -85,7 +85,7 @@ pub(super) fn innovation_of(
 
 /// What the curvature of the bearing adds to its noise: a depth error e∥ and an error across e⊥ leave -e∥ e⊥ / ρ²
 /// unmodelled. Its mean, which their correlation brings, is left where it is.
-fn second_order(estimate: &DescentEstimate, bearing: &BearingObservation, sight: &Sight) -> Matrix2<f64> {
+fn second_order(estimate: &DescentEstimate, bearing: &BearingObservation, sight: &LineOfSight) -> Matrix2<f64> {
     let across = tangent_basis(&bearing.direction_in_lander);
     let along = bearing.direction_in_lander.into_inner();
     let range_squared_m2 = sight.relative_in_lander_m.norm_squared().max(1e-6);
@@ -97,7 +97,7 @@ fn second_order(estimate: &DescentEstimate, bearing: &BearingObservation, sight:
 }
 
 /// Covariance of the point's position relative to the lander, lander axes, m².
-fn relative_covariance(estimate: &DescentEstimate, sight: &Sight) -> Matrix3<f64> {
+fn relative_covariance(estimate: &DescentEstimate, sight: &LineOfSight) -> Matrix3<f64> {
     let j = &sight.jacobian;
     let landmark = sight.landmark.map(|k| (estimate.state.start_of(k), j.by_landmark));
     let blocks = [Some((POSITION, j.by_position)), Some((ATTITUDE, j.by_attitude)), landmark];

@@ -1,4 +1,4 @@
-//! A known point, as seen in one picture.
+//! A known point, as seen in one image.
 
 use nalgebra::{Vector2, Vector3};
 

@@ -1,4 +1,4 @@
-//! How errors move from one picture to the next.
+//! How errors move from one image to the next.
 
 use super::state::{BIASES, WITH_BIASES};
 use crate::navigation::landing::inertial::ImuIncrement;

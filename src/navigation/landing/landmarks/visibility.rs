@@ -1,4 +1,4 @@
-//! Which features of a picture may become an unknown landmark.
+//! Which features of an image may become an unknown landmark.
 
 use crate::navigation::landing::bearings::{BearingObservation, CameraMount};
 use crate::navigation::landing::config::LandingConfig;
@@ -29,7 +29,7 @@ pub fn viewpoint(
     }
 }
 
-/// Whether the ground point that a bearing meets will still be in the picture, `margin_px` from its edge, at each of the
+/// Whether the ground point that a bearing meets will still be in the image, `margin_px` from its edge, at each of the
 /// next `images` images, by the estimated motion and a steady rate of turn.
 pub fn survives(
     state: &DescentState,
@@ -50,7 +50,7 @@ pub fn survives(
         }
         let time_s = image as f64 * ahead.increment.duration_s;
         let lander_m = ahead.view.predicted_position_in_site_m(time_s);
-        is_in_picture(&(lander_from_site * (point_m - lander_m)), mount, ahead.margin_px)
+        is_in_image(&(lander_from_site * (point_m - lander_m)), mount, ahead.margin_px)
     })
 }
 
@@ -63,11 +63,11 @@ pub struct LookAhead<'a> {
     pub increment: &'a ImuIncrement,
     /// Number of images ahead.
     pub images: usize,
-    /// Distance to keep from the picture's edge, px.
+    /// Distance to keep from the image's edge, px.
     pub margin_px: f64,
 }
 
-fn is_in_picture(relative_in_lander_m: &Vector3<f64>, mount: &CameraMount, margin_px: f64) -> bool {
+fn is_in_image(relative_in_lander_m: &Vector3<f64>, mount: &CameraMount, margin_px: f64) -> bool {
     let in_camera = mount.lander_from_camera.inverse_transform_point(&(*relative_in_lander_m).into());
     let pixel = mount.camera.project(&in_camera.coords);
     pixel.is_some_and(|pixel| mount.camera.contains(&pixel, margin_px))

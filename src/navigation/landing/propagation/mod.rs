@@ -1,4 +1,4 @@
-//! From one picture to the next: the state by inertial measurements, its covariance, rotations seen by pictures.
+//! From one image to the next: the state by inertial measurements, its covariance, rotations seen by images.
 
 mod covariance;
 mod image_rotation;

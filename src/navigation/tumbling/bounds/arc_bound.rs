@@ -1,26 +1,26 @@
-//! What the best estimator could reach on an arc: the Cramér–Rao bound of pairs of pictures.
+//! What the best estimator could reach on an arc: the Cramér–Rao bound of pairs of images.
 
 use super::determinacy::{UndeterminedDirection, scaled_units, undetermined_directions};
 use crate::navigation::observability::FisherInformation;
 use crate::navigation::tumbling::motion::{InertiaRatios, SpinState, TrajectoryPoint, propagate};
 use nalgebra::{DMatrix, UnitQuaternion, Vector3};
 
-/// Pictures at equal steps and the pairs that are matched between them.
+/// Images at equal steps and the pairs that are matched between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcDesign {
     /// Length of the arc in s.
     pub arc_s: f64,
-    /// Time between pictures in s.
+    /// Time between images in s.
     pub interval_s: f64,
     /// 1σ of a pair's rotation, each axis, in rad.
     pub sigma_rad: f64,
-    /// Pairs of each picture with its keyframe, up to this turn in rad; `None` for neighbours only.
+    /// Pairs of each image with its keyframe, up to this turn in rad; `None` for neighbours only.
     pub keyframe_turn_rad: Option<f64>,
-    /// Pairs of each picture with earlier ones that show the same face again, within this turn in rad; `None` for none.
+    /// Pairs of each image with earlier ones that show the same face again, within this turn in rad; `None` for none.
     pub loop_turn_rad: Option<f64>,
 }
 
-/// Numbers of the pictures of each pair (first, second) of a design, for the attitudes of a motion: neighbours, then
+/// Numbers of the images of each pair (first, second) of a design, for the attitudes of a motion: neighbours, then
 /// keyframes, then loop closures.
 pub fn planned_pairs(attitudes: &[UnitQuaternion<f64>], design: &ArcDesign) -> Vec<(usize, usize)> {
     let mut pairs: Vec<(usize, usize)> = (1..attitudes.len()).map(|k| (k - 1, k)).collect();
@@ -41,12 +41,12 @@ pub fn planned_pairs(attitudes: &[UnitQuaternion<f64>], design: &ArcDesign) -> V
     pairs
 }
 
-/// For each picture and each earlier return of the same face, the closest view of that return.
+/// For each image and each earlier return of the same face, the closest view of that return.
 fn loop_closures(attitudes: &[UnitQuaternion<f64>], most_rad: f64) -> Vec<(usize, usize)> {
     let mut pairs = Vec::new();
     for k in 1..attitudes.len() {
         let turn: Vec<f64> = attitudes[..=k].iter().map(|a| a.angle_to(&attitudes[k])).collect();
-        // Pictures just before k belong to the pass that is still going on.
+        // Images just before k belong to the pass that is still going on.
         let Some(left) = (0..k).rev().find(|&i| turn[i] > most_rad) else { continue };
         for i in 0..left {
             let closest = turn[i] <= turn[i + 1] && (i == 0 || turn[i] < turn[i - 1]);

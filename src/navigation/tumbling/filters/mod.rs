@@ -1,4 +1,4 @@
-//! Filters that run from picture to picture: the paper's, and the one for real time.
+//! Filters that run from image to image: the paper's, and the one for real time.
 
 mod paper_filter;
 mod realtime;

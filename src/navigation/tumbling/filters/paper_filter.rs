@@ -59,7 +59,7 @@ pub struct PaperFilter {
 }
 
 impl PaperFilter {
-    /// The filter before the first picture.
+    /// The filter before the first image.
     pub fn new(config: &PaperConfig) -> Self {
         let spin = SpinState {
             asteroid_from_inertial: UnitQuaternion::identity(),
@@ -154,13 +154,13 @@ fn runge_kutta_step(state: &PaperState, dt_s: f64) -> Option<(SpinState, Matrix1
     Some((next.state, transition))
 }
 
-/// Attitudes from the chain of pairs, `A_k = A_{k-1} R_Δkᵀ`, through the pair with the shortest span into each picture;
+/// Attitudes from the chain of pairs, `A_k = A_{k-1} R_Δkᵀ`, through the pair with the shortest span into each image;
 /// `None` where no pair leads. Also the number of pairs used.
 pub fn chained_attitudes(pairs: &[RotationPair], frames: usize) -> (Vec<Option<UnitQuaternion<f64>>>, usize) {
     let mut attitudes = vec![None; frames];
     attitudes[0] = Some(UnitQuaternion::identity());
     let mut used = 0;
-    // Sorted by (to, from): of the pairs into a picture, the last one that starts from a known attitude wins.
+    // Sorted by (to, from): of the pairs into an image, the last one that starts from a known attitude wins.
     for incoming in pairs.chunk_by(|a, b| a.to == b.to) {
         let found = incoming.iter().rev().find_map(|p| attitudes[p.from].map(|from| from * p.measured.inverse()));
         used += usize::from(found.is_some());

@@ -1,4 +1,4 @@
-//! One picture at a time: shooting over the first arc, then a filter that stores the attitudes of earlier pictures, so
+//! One image at a time: shooting over the first arc, then a filter that stores the attitudes of earlier images, so
 //! that a pair is a measurement between two stored attitudes and errors along the chain are accounted for.
 
 use crate::geometry::Manifold;
@@ -17,8 +17,8 @@ use smallvec::smallvec;
 /// Size of (attitude error in inertial axes, rate error, ratio errors).
 const CORE: usize = 11;
 
-/// Fewest pictures of the arc that starts the filter.
-const LEAST_FIRST_PICTURES: usize = 60;
+/// Fewest images of the arc that starts the filter.
+const LEAST_FIRST_IMAGES: usize = 60;
 
 /// How many times the information that counts as determined the filter asks for, so that its linearisation holds.
 const INFORMATION_MARGIN: f64 = 10.0;
@@ -50,14 +50,14 @@ pub fn filter_after_first_arc(
     Ok(TumblingResult::new(epochs, &filter.inertia, &covariance, undetermined, count))
 }
 
-/// The fit of the first arc, and its number of pictures; all of them if the inertia is never well determined.
+/// The fit of the first arc, and its number of images; all of them if the inertia is never well determined.
 fn shoot_until_determined(
     pairs: &[RotationPair],
     times_s: &[f64],
     config: &TumblingConfig,
 ) -> Result<(ShootingFit, usize), TumblingError> {
     let within = times_s.partition_point(|&t| t <= config.realtime_start_s);
-    let mut first = within.max(LEAST_FIRST_PICTURES).min(times_s.len());
+    let mut first = within.max(LEAST_FIRST_IMAGES).min(times_s.len());
     loop {
         let early: Vec<RotationPair> = pairs.iter().filter(|p| p.to < first).cloned().collect();
         let shot = shoot(&early, &times_s[..first], config)?;
@@ -86,7 +86,7 @@ struct CloneFilter {
 }
 
 impl CloneFilter {
-    /// Starts at the last picture of the first arc. Pictures of the arc that later pairs start from are stored too; all
+    /// Starts at the last image of the first arc. Images of the arc that later pairs start from are stored too; all
     /// errors come from the same eight unknowns.
     fn start(shot: &ShootingFit, pairs: &[RotationPair], config: &TumblingConfig) -> Self {
         let points = &shot.fit.points;
@@ -126,7 +126,7 @@ impl CloneFilter {
         Some(CloneFilter { state: next.state, ..self })
     }
 
-    /// The filter after a pair into the present picture; as it was if the first picture is not stored or the pair fails
+    /// The filter after a pair into the present image; as it was if the first image is not stored or the pair fails
     /// the gate.
     fn correct(self, pair: &RotationPair) -> Self {
         let Some(slot) = self.stored.iter().position(|s| s.frame == pair.from) else { return self };

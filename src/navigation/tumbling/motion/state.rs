@@ -4,7 +4,7 @@ use crate::geometry::Manifold;
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 
 /// Attitude and rate. The inertial axes are the camera's (the camera does not turn), and the asteroid axes are the
-/// camera's axes at the first picture, so the attitude is the identity there by definition.
+/// camera's axes at the first image, so the attitude is the identity there by definition.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpinState {
     /// Attitude (Hamilton).

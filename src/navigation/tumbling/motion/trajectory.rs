@@ -8,7 +8,7 @@ use nalgebra::{Quaternion, SMatrix, UnitQuaternion, Vector3};
 /// Longest turn of one Runge–Kutta step, in radians: the error of the fourth-order rule is then 1e-10 a radian.
 const STEP_RAD: f64 = 0.01;
 
-/// More steps between two times mean a rate that no picture could follow.
+/// More steps between two times mean a rate that no image could follow.
 const MOST_STEPS: f64 = 20_000.0;
 
 /// Derivative (6×8) of (attitude error in inertial axes, rate) by (initial rate, inertia ratios).

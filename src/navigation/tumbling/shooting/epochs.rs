@@ -1,10 +1,10 @@
-//! Times of the pictures that shooting works at.
+//! Times of the images that shooting works at.
 
 use super::shooting::ShootingFit;
 use crate::navigation::tumbling::result::{InertiaKnowledge, TumblingEpoch};
 use crate::stats::symmetric;
 
-/// Times since the first picture in s.
+/// Times since the first image in s.
 pub fn seconds(frame_times_ns: &[i64]) -> Vec<f64> {
     frame_times_ns.iter().map(|t| (t - frame_times_ns[0]) as f64 * 1e-9).collect()
 }

@@ -19,12 +19,12 @@ const DESCENT: LeastSquaresOptions = LeastSquaresOptions {
     least_drop: 1e-16,
 };
 
-/// What is fitted: pairs, the times of their pictures, a robust width and prior information on the ratios.
+/// What is fitted: pairs, the times of their images, a robust width and prior information on the ratios.
 #[derive(Clone, Copy)]
 pub(super) struct FitProblem<'a> {
     /// Pairs within the arc.
     pub pairs: &'a [RotationPair],
-    /// Times of the arc's pictures in s, the first one 0.
+    /// Times of the arc's images in s, the first one 0.
     pub times_s: &'a [f64],
     /// Whitened misfit (3-norm) from which a pair's pull is constant (Huber); infinite for none.
     pub huber: f64,

@@ -1,4 +1,4 @@
-//! What a fit is not left to itself in: a nutation that is only noise, and directions that the pictures do not show.
+//! What a fit is not left to itself in: a nutation that is only noise, and directions that the images do not show.
 
 use super::fit::{Fit, FitProblem};
 use super::initial::Guess;
@@ -23,7 +23,7 @@ const SPHERE_PRIOR: f64 = 1e12;
 const NUTATION_SIGNIFICANCE: f64 = 30.0;
 
 /// A pure spin if that explains the pairs as well: a fit that follows noise into a small nutation would find inertia in
-/// it that the pictures do not show.
+/// it that the images do not show.
 pub(super) fn simplest_motion(pairs: &[RotationPair], times_s: &[f64], tumble: Fit) -> Fit {
     let free = SMatrix::zeros();
     let as_sphere = SMatrix::identity() * SPHERE_PRIOR;

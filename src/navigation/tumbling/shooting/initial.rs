@@ -6,7 +6,7 @@ use crate::navigation::tumbling::pair::RotationPair;
 use crate::stats::upper_median;
 use nalgebra::{Matrix3, SMatrix, SymmetricEigen, UnitQuaternion, Vector3};
 
-/// Pairs that span more pictures than this are not taken as a rate: their rotation may exceed half a turn.
+/// Pairs that span more images than this are not taken as a rate: their rotation may exceed half a turn.
 const LONGEST_SPAN: usize = 5;
 
 /// A rate that leaves the median of its neighbours by more than this share of it is replaced by the median.
@@ -19,7 +19,7 @@ pub struct Guess {
     pub shape: InertiaShape,
 }
 
-/// Guesses of the motion over the pictures at `times_s`: the closed form, then a sphere; none if no interval has a pair.
+/// Guesses of the motion over the images at `times_s`: the closed form, then a sphere; none if no interval has a pair.
 pub(super) fn initial_guesses(pairs: &[RotationPair], times_s: &[f64]) -> Vec<Guess> {
     let Some(rates) = interval_rates(pairs, times_s) else { return Vec::new() };
     let (midpoint_attitudes, midpoint_rates) = chained_midpoints(&rates, times_s);
@@ -36,7 +36,7 @@ pub(super) fn initial_guesses(pairs: &[RotationPair], times_s: &[f64]) -> Vec<Gu
         .collect()
 }
 
-/// Rate in inertial axes over each interval between pictures, from the shortest pair that covers it, gated against its
+/// Rate in inertial axes over each interval between images, from the shortest pair that covers it, gated against its
 /// neighbours; intervals without a pair take their neighbours' median.
 fn interval_rates(pairs: &[RotationPair], times_s: &[f64]) -> Option<Vec<Vector3<f64>>> {
     let intervals = times_s.len() - 1;

@@ -10,7 +10,7 @@ use crate::navigation::tumbling::pair::RotationPair;
 use crate::stats::{SQUARED_NORMAL_MEDIAN_3D, upper_median};
 use nalgebra::SMatrix;
 
-/// Picture intervals that the first arc holds at least.
+/// PageImage intervals that the first arc holds at least.
 const LEAST_INTERVALS: usize = 20;
 
 /// Misfit in standard deviations beyond which the pairs and the motion have nothing to do with each other.
@@ -28,7 +28,7 @@ pub struct ShootingFit {
     pub pairs_used: usize,
 }
 
-/// Fits pairs over a growing arc of the pictures at `times_s` (the first one 0).
+/// Fits pairs over a growing arc of the images at `times_s` (the first one 0).
 ///
 /// # Errors
 /// Too few pairs in the first arc, or no free body that fits them.

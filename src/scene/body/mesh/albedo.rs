@@ -14,11 +14,11 @@ pub enum MeshAlbedo {
     Uniform,
     /// One value a vertex, linear across each face.
     Vertices(Vec<f32>),
-    /// A picture laid on by texture coordinates.
+    /// An image laid on by texture coordinates.
     Texture {
-        /// Coordinates of the three corners of each face: u to the right and v up, 0 to 1 over the picture.
+        /// Coordinates of the three corners of each face: u to the right and v up, 0 to 1 over the image.
         corners: Vec<[[f32; 2]; 3]>,
-        /// The picture.
+        /// The image.
         image: AlbedoImage,
     },
     /// A map of east longitude (to the right) and latitude (up), over the whole sphere.
@@ -28,7 +28,7 @@ pub enum MeshAlbedo {
 /// A simple cylindrical (plate carrée) map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GlobeMap {
-    /// The picture.
+    /// The image.
     pub image: AlbedoImage,
     /// East longitude of its left edge in rad.
     pub west_edge_rad: f64,

@@ -1,33 +1,33 @@
-//! Grey pictures that hold a body's albedo.
+//! Grey images that hold a body's albedo.
 
 use crate::scene::error::SceneError;
 use std::path::Path;
 
-/// How a picture goes on beyond an edge.
+/// How an image goes on beyond an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PictureEdge {
+pub enum ImageEdge {
     /// It starts again from the other side.
     Repeat,
     /// Its outermost pixels go on.
     Clamp,
 }
 
-/// A grey picture whose values are proportional to albedo: no gamma, and colours count by their luma.
+/// A grey image whose values are proportional to albedo: no gamma, and colours count by their luma.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AlbedoImage {
     width_px: u32,
     height_px: u32,
     values: Vec<f32>,
-    /// Beyond its upper and lower edge; to the left and right a picture repeats.
-    vertical_edge: PictureEdge,
+    /// Beyond its upper and lower edge; to the left and right an image repeats.
+    vertical_edge: ImageEdge,
 }
 
 impl AlbedoImage {
-    /// Picture of the given size, row by row from the top.
+    /// PageImage of the given size, row by row from the top.
     ///
     /// # Panics
     /// If there are not `width_px · height_px` values, or none.
-    pub fn new(width_px: u32, height_px: u32, values: Vec<f32>, vertical_edge: PictureEdge) -> Self {
+    pub fn new(width_px: u32, height_px: u32, values: Vec<f32>, vertical_edge: ImageEdge) -> Self {
         assert!(!values.is_empty() && values.len() == width_px as usize * height_px as usize, "a value a pixel");
         AlbedoImage { width_px, height_px, values, vertical_edge }
     }
@@ -36,21 +36,21 @@ impl AlbedoImage {
     ///
     /// # Errors
     /// Names the file and what is wrong with it.
-    pub fn read(path: &Path, vertical_edge: PictureEdge) -> Result<Self, SceneError> {
+    pub fn read(path: &Path, vertical_edge: ImageEdge) -> Result<Self, SceneError> {
         let unusable = |problem: String| SceneError::Unusable { path: path.into(), problem };
         let content = std::fs::read(path).map_err(|source| SceneError::Io {
             action: "read the albedo image",
             path: path.into(),
             source,
         })?;
-        let picture = image::load_from_memory(&content)
+        let image = image::load_from_memory(&content)
             .map_err(|e| unusable(format!("{e}: give a PNG, JPEG or TIFF of 8 or 16 bits")))?
             .into_luma16();
-        let (width_px, height_px) = picture.dimensions();
-        if width_px == 0 || height_px == 0 || picture.iter().all(|value| *value == 0) {
+        let (width_px, height_px) = image.dimensions();
+        if width_px == 0 || height_px == 0 || image.iter().all(|value| *value == 0) {
             return Err(unusable("the albedo image is black: it says nothing about the albedo".into()));
         }
-        let values = picture.iter().map(|value| f32::from(*value) / f32::from(u16::MAX)).collect();
+        let values = image.iter().map(|value| f32::from(*value) / f32::from(u16::MAX)).collect();
         Ok(AlbedoImage { width_px, height_px, values, vertical_edge })
     }
 
@@ -64,12 +64,12 @@ impl AlbedoImage {
         &self.values
     }
 
-    /// How the picture goes on beyond its upper and lower edge; to the left and right it repeats.
-    pub fn vertical_edge(&self) -> PictureEdge {
+    /// How the image goes on beyond its upper and lower edge; to the left and right it repeats.
+    pub fn vertical_edge(&self) -> ImageEdge {
         self.vertical_edge
     }
 
-    /// Value at a place by bilinear interpolation between pixel centres: (0, 0) is the upper left corner of the picture
+    /// Value at a place by bilinear interpolation between pixel centres: (0, 0) is the upper left corner of the image
     /// and (1, 1) the lower right one.
     pub fn at(&self, [right, down]: [f64; 2]) -> f64 {
         let (x, y) = (right * f64::from(self.width_px) - 0.5, down * f64::from(self.height_px) - 0.5);
@@ -78,8 +78,8 @@ impl AlbedoImage {
         let value = |dx: i64, dy: i64| {
             let column = (column as i64 + dx).rem_euclid(i64::from(self.width_px)) as usize;
             let row = match self.vertical_edge {
-                PictureEdge::Repeat => (row as i64 + dy).rem_euclid(i64::from(self.height_px)),
-                PictureEdge::Clamp => (row as i64 + dy).clamp(0, i64::from(self.height_px) - 1),
+                ImageEdge::Repeat => (row as i64 + dy).rem_euclid(i64::from(self.height_px)),
+                ImageEdge::Clamp => (row as i64 + dy).clamp(0, i64::from(self.height_px) - 1),
             } as usize;
             f64::from(self.values[row * self.width_px as usize + column])
         };
@@ -88,7 +88,7 @@ impl AlbedoImage {
         upper * (1.0 - t) + lower * t
     }
 
-    /// The picture with every value multiplied.
+    /// The image with every value multiplied.
     pub(super) fn scaled(mut self, factor: f64) -> Self {
         for value in &mut self.values {
             *value = (f64::from(*value) * factor) as f32;

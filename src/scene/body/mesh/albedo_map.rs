@@ -1,7 +1,7 @@
 //! A map of a body's albedo as a scenario names it.
 
 use super::albedo::{GlobeMap, MeshAlbedo};
-use super::albedo_image::{AlbedoImage, PictureEdge};
+use super::albedo_image::{AlbedoImage, ImageEdge};
 use super::mesh::Mesh;
 use crate::scene::error::SceneError;
 use crate::settings::{OutOfRange, limits};
@@ -30,9 +30,9 @@ impl AlbedoMapFile {
     /// Lays the map on a mesh, longitudes and latitudes counted about the origin of the mesh's axes.
     ///
     /// # Errors
-    /// Names the picture and what is wrong with it.
+    /// Names the image and what is wrong with it.
     pub(in crate::scene) fn lay_on(&self, mesh: &mut Mesh, base_folder: &Path) -> Result<(), SceneError> {
-        let image = AlbedoImage::read(&base_folder.join(&self.path), PictureEdge::Clamp)?;
+        let image = AlbedoImage::read(&base_folder.join(&self.path), ImageEdge::Clamp)?;
         let west_edge_rad = self.west_edge_deg.to_radians();
         mesh.albedo = MeshAlbedo::Globe(GlobeMap { image, west_edge_rad, origin_m: Vector3::zeros() });
         Ok(())

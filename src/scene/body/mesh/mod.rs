@@ -10,7 +10,7 @@ mod ray;
 mod topology;
 
 pub use albedo::{GlobeMap, MeshAlbedo};
-pub use albedo_image::{AlbedoImage, PictureEdge};
+pub use albedo_image::{AlbedoImage, ImageEdge};
 pub use albedo_map::AlbedoMapFile;
 pub use mass_properties::{MassProperties, principal_moments};
 pub use mesh::Mesh;

@@ -68,7 +68,7 @@ impl Default for ProceduralBody {
 impl ProceduralBody {
     /// The body's mesh, closed and outward; the same for the same seed. Its centre of mass is near the origin only.
     pub fn mesh(&self, seed: u64) -> Mesh {
-        let ground = Ground::new(self, seed);
+        let ground = BareBody::new(self, seed);
         let mut mesh = Mesh::icosphere(self.subdivisions);
         mesh.vertices_m.par_iter_mut().for_each(|vertex| *vertex = ground.point_m(vertex));
         let edge_m = 0.5 * mesh.mean_edge_m();
@@ -119,13 +119,13 @@ fn scattered(seed: u64, what: &str, index: usize) -> (Vector3<f64>, ChaCha8Rng) 
 }
 
 /// The body without its boulders: one point in each direction of its sphere.
-struct Ground {
+struct BareBody {
     semi_axes_m: Vector3<f64>,
     relief: BodyRelief,
     craters: Vec<BodyCrater>,
 }
 
-impl Ground {
+impl BareBody {
     fn new(body: &ProceduralBody, seed: u64) -> Self {
         let semi_axes_m = Vector3::from(body.semi_axes_m);
         let sizes = body.sizes(body.smallest_crater, body.largest_crater, CRATER_EXPONENT);
@@ -133,7 +133,7 @@ impl Ground {
             let (direction, mut random) = scattered(seed, "body-crater", index);
             BodyCrater::random(direction.component_mul(&semi_axes_m), &sizes, &mut random)
         };
-        Ground {
+        BareBody {
             semi_axes_m,
             relief: BodyRelief::new(body.relief, body.relief_octaves, &mut random_stream(seed, "body-relief", 0)),
             craters: (0..body.craters).map(crater).collect(),

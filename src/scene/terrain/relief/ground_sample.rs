@@ -24,7 +24,7 @@ pub struct GroundDetail {
     pub feature_m: f64,
     /// Diameter of the smallest rock that shows.
     pub rock_m: f64,
-    /// Footprint of a pixel: details near it fade as they do in a picture. 0 shows all.
+    /// Footprint of a pixel: details near it fade as they do in an image. 0 shows all.
     pub footprint_m: f64,
 }
 

@@ -1,27 +1,27 @@
 //! Covariance when neighbouring matches err together.
 //!
-//! The looks of the ground change with the light and the view, and what is near in the picture changes alike. So the
-//! scores of the matches are added up over cells of the picture, and the spread of these sums is what the estimate's
+//! The looks of the ground change with the light and the view, and what is near in the image changes alike. So the
+//! scores of the matches are added up over cells of the image, and the spread of these sums is what the estimate's
 //! covariance is made of (Liang and Zeger 1986), as far as it exceeds that of independent matches.
 
-use crate::vision::pair::normalized_match::Sight;
+use crate::vision::pair::normalized_match::NormalizedMatch;
 use nalgebra::{Matrix3, SMatrix, SVector};
 
 /// Cells a side of the matches' rectangle.
 const CELLS: usize = 6;
 
-/// Which cell of the first picture each sight lies in.
-pub fn cells(sights: &[Sight]) -> Vec<usize> {
+/// Which cell of the first image each matched lies in.
+pub fn cells(normalized: &[NormalizedMatch]) -> Vec<usize> {
     let (mut low, mut high) = (nalgebra::Vector2::repeat(f64::INFINITY), nalgebra::Vector2::repeat(f64::NEG_INFINITY));
-    for s in sights {
+    for s in normalized {
         low = low.inf(&s.from);
         high = high.sup(&s.from);
     }
     let place = |value: f64, low: f64, high: f64| {
         (((value - low) / (high - low).max(1e-12) * CELLS as f64) as usize).min(CELLS - 1)
     };
-    let cell = |s: &Sight| place(s.from.x, low.x, high.x) + CELLS * place(s.from.y, low.y, high.y);
-    sights.iter().map(cell).collect()
+    let cell = |s: &NormalizedMatch| place(s.from.x, low.x, high.x) + CELLS * place(s.from.y, low.y, high.y);
+    normalized.iter().map(cell).collect()
 }
 
 /// Sums of values over the cells; empty cells left out.

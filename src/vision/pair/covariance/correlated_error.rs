@@ -1,20 +1,20 @@
-//! Errors that vary smoothly over the picture, as unknowns of their own.
+//! Errors that vary smoothly over the image, as unknowns of their own.
 //!
-//! The looks of a surface change with the view and the light, and they change alike all over the picture or a good part
+//! The looks of a surface change with the view and the light, and they change alike all over the image or a good part
 //! of it. Patches and corners follow. No number of matches averages such an error out, and a motion is easily bent to it:
 //! at low orders, a change of rotation looks the same. So the error of a match, in units of its noise, is a polynomial of
 //! its place with normal coefficients, besides white noise. The polynomial is eliminated from the normal equations of the
 //! motion (Schur complement), which leaves the motion to what a smooth error cannot imitate.
 //!
 //! The coefficients' variance, as a share of the noise's, is the most likely one of the pair (restricted likelihood,
-//! Patterson and Thompson 1971), held near what pictures rendered with known motion show. Residuals tell of the smooth
+//! Patterson and Thompson 1971), held near what images rendered with known motion show. Residuals tell of the smooth
 //! error only what a motion cannot imitate, and of that the likeliest share is on the small side. The motion itself is best
 //! weighted with a small one; its covariance counts with the whole one.
 
 use super::cluster_robust::{cells, covariance_of_rotation};
 use super::correlated_modes::{COEFFICIENTS, Places};
 use super::elimination::Sums;
-use crate::vision::pair::normalized_match::Sight;
+use crate::vision::pair::normalized_match::NormalizedMatch;
 use crate::vision::pair::residual::{PairModel, residual};
 use crate::vision::pair::robust_fit::{Loss, PairFit, observed_information};
 use nalgebra::{Matrix3, SMatrix, SVector};
@@ -23,7 +23,7 @@ use nalgebra::{Matrix3, SMatrix, SVector};
 const LEAST_SHARE: f64 = 1e-9;
 
 /// A motion refined with the smooth error as an unknown.
-pub struct Refined<M> {
+pub struct CorrelatedFit<M> {
     pub model: M,
     /// Covariance (rad²) of its rotation.
     pub rotation_covariance_rad2: Matrix3<f64>,
@@ -41,10 +41,10 @@ pub struct Size {
 /// Refines a fit on the matches that agree with it, its smooth error eliminated; `None` where that leaves it undetermined.
 pub fn refine<const N: usize, M: PairModel<N>>(
     fit: &PairFit<N, M>,
-    sights: &[Sight],
+    normalized: &[NormalizedMatch],
     size: Size,
-) -> Option<Refined<M>> {
-    let inside = fit.agreeing(sights);
+) -> Option<CorrelatedFit<M>> {
+    let inside = fit.agreeing(normalized);
     let places = Places::of(&inside);
     let mut sums = Sums::of(&fit.model, &inside, (&places, fit.scale));
     let share = sums.likeliest_share(size.share.max(LEAST_SHARE));
@@ -61,7 +61,7 @@ pub fn refine<const N: usize, M: PairModel<N>>(
     covariance.cholesky()?;
     let scores = left.scores(&model, &inside, (&places, fit.scale));
     let rotation_covariance_rad2 = covariance_of_rotation(&covariance, &scores, &cells(&inside))?;
-    Some(Refined { model, rotation_covariance_rad2 })
+    Some(CorrelatedFit { model, rotation_covariance_rad2 })
 }
 
 /// What a pair says about a motion as if all errors were white: the information, the gradient, and how that gradient moves
@@ -69,16 +69,16 @@ pub fn refine<const N: usize, M: PairModel<N>>(
 pub struct White<const N: usize> {
     pub information: SMatrix<f64, N, N>,
     pub gradient: SVector<f64, N>,
-    pub by_smooth_error: SMatrix<f64, N, COEFFICIENTS>,
+    pub by_correlated_error: SMatrix<f64, N, COEFFICIENTS>,
 }
 
 impl<const N: usize> White<N> {
     /// Over the matches within 3σ, `scale` being the noise over the nominal one.
-    pub fn of<M: PairModel<N>>(model: &M, sights: &[Sight], scale: f64) -> Self {
+    pub fn of<M: PairModel<N>>(model: &M, normalized: &[NormalizedMatch], scale: f64) -> Self {
         let matrix = model.matrix().0;
-        let near = |s: &&Sight| residual(M::RELATION, &matrix, s).norm() < 3.0 * scale;
-        let inside: Vec<Sight> = sights.iter().filter(near).copied().collect();
+        let near = |s: &&NormalizedMatch| residual(M::RELATION, &matrix, s).norm() < 3.0 * scale;
+        let inside: Vec<NormalizedMatch> = normalized.iter().filter(near).copied().collect();
         let sums = Sums::of(model, &inside, (&Places::of(&inside), scale));
-        White { information: sums.motion, gradient: sums.motion_gradient, by_smooth_error: sums.mixed }
+        White { information: sums.motion, gradient: sums.motion_gradient, by_correlated_error: sums.mixed }
     }
 }

@@ -1,7 +1,7 @@
 //! Normal equations of a motion with the coefficients of a smooth error, and what is left once those are eliminated.
 
 use super::correlated_modes::{COEFFICIENTS, Places, variance};
-use crate::vision::pair::normalized_match::Sight;
+use crate::vision::pair::normalized_match::NormalizedMatch;
 use crate::vision::pair::residual::{PairModel, Relation, linearized};
 use nalgebra::{SMatrix, SVector};
 
@@ -9,8 +9,8 @@ use nalgebra::{SMatrix, SVector};
 const SHARE_WIDTH: f64 = 0.7;
 
 /// Covariance of a gradient that moves so with the coefficients of a smooth error.
-pub fn spread<const N: usize>(by_smooth_error: &SMatrix<f64, N, COEFFICIENTS>, share: f64) -> SMatrix<f64, N, N> {
-    let columns = by_smooth_error.column_iter().enumerate();
+pub fn spread<const N: usize>(by_correlated_error: &SMatrix<f64, N, COEFFICIENTS>, share: f64) -> SMatrix<f64, N, N> {
+    let columns = by_correlated_error.column_iter().enumerate();
     columns.fold(SMatrix::zeros(), |sum, (i, column)| sum + column * column.transpose() * variance(i, share))
 }
 
@@ -24,7 +24,11 @@ pub(super) struct Sums<const N: usize> {
 }
 
 impl<const N: usize> Sums<N> {
-    pub(super) fn of<M: PairModel<N>>(model: &M, sights: &[Sight], (places, scale): (&Places, f64)) -> Self {
+    pub(super) fn of<M: PairModel<N>>(
+        model: &M,
+        normalized: &[NormalizedMatch],
+        (places, scale): (&Places, f64),
+    ) -> Self {
         debug_assert!(M::RELATION == Relation::Epipolar);
         let linear = model.matrix();
         let mut sums = Sums {
@@ -34,10 +38,10 @@ impl<const N: usize> Sums<N> {
             motion_gradient: SVector::zeros(),
             coefficients_gradient: SVector::zeros(),
         };
-        for sight in sights {
-            let (r, jacobian, gradient) = linearized(M::RELATION, &linear, sight);
+        for matched in normalized {
+            let (r, jacobian, gradient) = linearized(M::RELATION, &linear, matched);
             let j: SVector<f64, N> = jacobian.row(0).transpose() / scale;
-            let g = places.by_coefficients(&linear.0, sight);
+            let g = places.by_coefficients(&linear.0, matched);
             sums.motion += j * j.transpose();
             sums.mixed += j * g.transpose();
             sums.coefficients += g * g.transpose();
@@ -72,11 +76,11 @@ impl<const N: usize> Sums<N> {
 
     /// Covariance of the motion that was found with the coefficients eliminated, where their variance is truly `share`.
     pub(super) fn covariance(&self, left: &Eliminated<N>, share: f64) -> Option<SMatrix<f64, N, N>> {
-        let by_smooth_error = self.mixed - left.gain.tr_mul(&self.coefficients);
+        let by_correlated_error = self.mixed - left.gain.tr_mul(&self.coefficients);
         let crossed = self.mixed * left.gain;
         let white = self.motion - crossed - crossed.transpose() + left.gain.tr_mul(&self.coefficients) * left.gain;
         let inverse = left.information.cholesky()?.inverse();
-        Some(inverse * (white + spread(&by_smooth_error, share)) * inverse)
+        Some(inverse * (white + spread(&by_correlated_error, share)) * inverse)
     }
 
     /// The share with the greatest restricted likelihood, the expected one being likely beforehand.
@@ -118,18 +122,18 @@ impl<const N: usize> Eliminated<N> {
     pub(super) fn scores<M: PairModel<N>>(
         &self,
         model: &M,
-        sights: &[Sight],
+        normalized: &[NormalizedMatch],
         (places, scale): (&Places, f64),
     ) -> Vec<SVector<f64, N>> {
         let linear = model.matrix();
-        let score = |sight: &Sight| {
-            let (r, jacobian, gradient) = linearized(M::RELATION, &linear, sight);
+        let score = |matched: &NormalizedMatch| {
+            let (r, jacobian, gradient) = linearized(M::RELATION, &linear, matched);
             let j: SVector<f64, N> = jacobian.row(0).transpose() / scale;
-            let g = places.by_coefficients(&linear.0, sight);
+            let g = places.by_coefficients(&linear.0, matched);
             let taken = self.gain.tr_mul(&g);
             gradient / scale.powi(2) - taken * (r.x / scale) + (j - taken) * g.dot(&self.error)
         };
-        sights.iter().map(score).collect()
+        normalized.iter().map(score).collect()
     }
 }
 
@@ -150,16 +154,16 @@ mod tests {
     }
 
     /// Points at several depths, seen without noise.
-    fn sights() -> Vec<Sight> {
+    fn normalized() -> Vec<NormalizedMatch> {
         let from_covariance = Matrix2::new(4.0, 1.0, 1.0, 2.0) * 1e-8;
         let to_covariance = Matrix2::new(3.0, -1.0, -1.0, 5.0) * 1e-8;
         let place = |k: usize| Vector2::new(0.11 * (k % 5) as f64 - 0.2, 0.07 * (k / 5) as f64 - 0.25);
-        let sight = |k: usize| {
+        let matched = |k: usize| {
             let inverse_depth = 0.02 * (1.0 + 0.3 * (k % 3) as f64);
             let p = model().rotation * place(k).push(1.0) + model().direction.into_inner() * inverse_depth;
-            Sight { from: place(k), to: p.xy() / p.z, from_covariance, to_covariance }
+            NormalizedMatch { from: place(k), to: p.xy() / p.z, from_covariance, to_covariance }
         };
-        (0..40).map(sight).collect()
+        (0..40).map(matched).collect()
     }
 
     /// Greatest difference between the derivatives by the coefficients and those by differences of the residual, over the
@@ -167,15 +171,16 @@ mod tests {
     fn off(size: f64) -> f64 {
         const STEP: f64 = 1e-3;
         let (matrix, _) = model().matrix();
-        let (all, mut worst, mut greatest) = (sights(), 0.0f64, 0.0f64);
+        let (all, mut worst, mut greatest) = (normalized(), 0.0f64, 0.0f64);
         let places = Places::of(&all);
-        for sight in &all {
-            let by = places.by_coefficients(&matrix, sight);
-            let factor = sight.to_covariance.cholesky().expect("positive").l() * std::f64::consts::SQRT_2 * size;
+        for matched in &all {
+            let by = places.by_coefficients(&matrix, matched);
+            let factor = matched.to_covariance.cholesky().expect("positive").l() * std::f64::consts::SQRT_2 * size;
             for i in 0..COEFFICIENTS {
-                let error = factor.column(i / MODES) * places.modes(sight)[i % MODES] * STEP;
-                let at = |to: Vector2<f64>| residual(Relation::Epipolar, &matrix, &Sight { to, ..*sight }).x;
-                let numeric = (at(sight.to + error) - at(sight.to - error)) / (2.0 * STEP);
+                let error = factor.column(i / MODES) * places.modes(matched)[i % MODES] * STEP;
+                let at =
+                    |to: Vector2<f64>| residual(Relation::Epipolar, &matrix, &NormalizedMatch { to, ..*matched }).x;
+                let numeric = (at(matched.to + error) - at(matched.to - error)) / (2.0 * STEP);
                 (worst, greatest) = (worst.max((numeric - by[i]).abs()), greatest.max(by[i].abs()));
             }
         }
@@ -191,7 +196,7 @@ mod tests {
     #[test]
     fn the_covariance_is_that_of_many_errors_of_the_true_share() {
         const RUNS: u64 = 4000;
-        let all = sights();
+        let all = normalized();
         let (matrix, _) = model().matrix();
         let places = Places::of(&all);
         let sums = Sums::of(&model(), &all, (&places, 1.0));
@@ -232,7 +237,7 @@ mod tests {
 
     #[test]
     fn a_smooth_error_takes_information_away_and_more_with_its_share() {
-        let all = sights();
+        let all = normalized();
         let sums = Sums::of(&model(), &all, (&Places::of(&all), 1.0));
         let left = |share: f64| sums.eliminated(share).expect("positive").information;
         let least = |m: SMatrix<f64, 5, 5>| m.symmetric_eigenvalues().min() / sums.motion.trace();

@@ -1,4 +1,4 @@
-//! Errors of matches that are not independent: clusters, and localisation errors that vary smoothly over the picture.
+//! Errors of matches that are not independent: clusters, and localisation errors that vary smoothly over the image.
 
 mod cluster_robust;
 mod correlated_error;

@@ -5,12 +5,12 @@ use crate::vision::pair::config::{FixedCenterConfig, RotationConfig};
 use crate::vision::pair::solution::{PairSolution, PixelMatches};
 use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector3};
 
-/// A pair of pictures of the body.
+/// A pair of images of the body.
 #[derive(Debug, Clone, Copy)]
 pub struct CenteredPair<'a> {
     /// The matched pixels.
     pub matches: PixelMatches<'a>,
-    /// Time between the pictures, s.
+    /// Time between the images, s.
     pub dt_s: f64,
     /// Predicted rotation, where there is one.
     pub predicted: Option<UnitQuaternion<f64>>,

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 
 /// Solves all pairs of a sequence; pairs in time order, so that the rate gate can compare neighbours.
 ///
-/// Motion mostly in the picture's plane has a reversed rival with a displaced centre. So several first guesses of the
+/// Motion mostly in the image's plane has a reversed rival with a displaced centre. So several first guesses of the
 /// centre are followed on a few pairs, and the one that explains them best is taken for all.
 pub fn rotations_about_center(pairs: &[CenteredPair], problem: &CenterProblem) -> CenterSolution {
     let views: Vec<CenterView> = pairs.par_iter().map(|p| CenterView::new(p, problem)).collect();
@@ -95,8 +95,8 @@ impl<'a> Joint<'a> {
 fn pair_cost(view: &CenterView, found: &Option<AboutCenter>) -> f64 {
     const GATE: f64 = 3.0;
     match found {
-        Some(model) => 2.0 * cost::<3, _>(model, &view.sights, Loss::Truncated(GATE)),
-        None => GATE * GATE * view.sights.len() as f64,
+        Some(model) => 2.0 * cost::<3, _>(model, &view.normalized, Loss::Truncated(GATE)),
+        None => GATE * GATE * view.normalized.len() as f64,
     }
 }
 
@@ -112,11 +112,11 @@ pub fn rotation_about_center(
 }
 
 fn moved_to(center: Unit<Vector3<f64>>, found: AboutCenter, view: &CenterView) -> AboutCenter {
-    fit(AboutCenter { center, ..found }, &view.sights, view.widest).model
+    fit(AboutCenter { center, ..found }, &view.normalized, view.widest).model
 }
 
 /// Newton step of the centre over all solved pairs, their rotations eliminated (Schur complement); the covariance is that
-/// of the step where the matches' errors vary smoothly over the picture besides their noise, and alike in all pairs: the
+/// of the step where the matches' errors vary smoothly over the image besides their noise, and alike in all pairs: the
 /// light stands still while the body turns on.
 fn refine_center(
     views: &[&CenterView],
@@ -128,18 +128,18 @@ fn refine_center(
     let basis = so3::tangent_basis(&center);
     let off = basis.transpose() * (problem.center_guess.into_inner() - center.into_inner());
     let mut information = Matrix2::identity() * prior;
-    let mut by_smooth_error = SMatrix::<f64, 2, COEFFICIENTS>::zeros();
+    let mut by_correlated_error = SMatrix::<f64, 2, COEFFICIENTS>::zeros();
     let mut gradient: Vector2<f64> = -off * prior;
     for (view, model) in views.iter().zip(found).filter_map(|(v, f)| f.map(|f| (v, AboutCenter { center, ..f }))) {
-        let scale = crate::vision::pair::robust_fit::robust_scale::<3, _>(&model, &view.sights, view.widest);
-        let white = White::of(&WithCenter(model), &view.sights, scale);
+        let scale = crate::vision::pair::robust_fit::robust_scale::<3, _>(&model, &view.normalized, view.widest);
+        let white = White::of(&WithCenter(model), &view.normalized, scale);
         if let Some(by_center) = without_rotation(&white.information) {
             information += by_center * white.information * by_center.transpose();
-            by_smooth_error += by_center * white.by_smooth_error;
+            by_correlated_error += by_center * white.by_correlated_error;
             gradient += by_center * white.gradient;
         }
     }
-    let spread = information + spread(&by_smooth_error, problem.config.noise.smooth_error_share);
+    let spread = information + spread(&by_correlated_error, problem.config.noise.correlated_error_share);
     let inverse = information.try_inverse().unwrap_or_else(Matrix2::identity);
     let step = -(inverse * gradient);
     let step = step * (0.05 / step.norm().max(0.05));
@@ -215,17 +215,17 @@ fn finish(
     let Some(model) = found else {
         return refused(view.failure.unwrap_or(PairStatus::Rejected));
     };
-    let fitted = fit(model, &view.sights, view.widest);
+    let fitted = fit(model, &view.normalized, view.widest);
     let enough = (config.min_inlier_ratio * view.offered as f64).max(config.min_matches as f64);
-    if (fitted.inlier_count() as f64) < enough || !is_near_side(&fitted.model, &view.sights) {
+    if (fitted.inlier_count() as f64) < enough || !is_near_side(&fitted.model, &view.normalized) {
         return refused(PairStatus::Rejected);
     }
     let noise = &problem.config.noise;
-    let size = Size { share: noise.smooth_error_share, over_likeliest: noise.over_likeliest };
-    let Some(refined) = refine(&fitted, &view.sights, size) else { return refused(PairStatus::Degenerate) };
+    let size = Size { share: noise.correlated_error_share, over_likeliest: noise.over_likeliest };
+    let Some(refined) = refine(&fitted, &view.normalized, size) else { return refused(PairStatus::Degenerate) };
     let full = observed_information(
         &WithCenter(refined.model),
-        &fitted.agreeing(&view.sights),
+        &fitted.agreeing(&view.normalized),
         Loss::Truncated(f64::INFINITY),
     );
     let rr: Matrix3<f64> = full.fixed_view::<3, 3>(0, 0).into_owned();

@@ -8,8 +8,8 @@ use crate::stats::upper_median;
 use crate::vision::pair::cheirality::Cheirality;
 use crate::vision::pair::config::RotationConfig;
 use crate::vision::pair::models::AboutCenter;
-use crate::vision::pair::normalized_match::{Sight, sights};
-use crate::vision::pair::parallax_gate::plausible;
+use crate::vision::pair::normalized_match::{NormalizedMatch, normalized};
+use crate::vision::pair::parallax_gate::passes_parallax_gate;
 use crate::vision::pair::robust_fit::{Loss, cost, descend, fit};
 use crate::vision::pair::usac;
 use nalgebra::{Unit, UnitQuaternion, Vector3};
@@ -17,7 +17,7 @@ use nalgebra::{Unit, UnitQuaternion, Vector3};
 /// A pair ready to be solved.
 pub(super) struct CenterView {
     /// Plausible matches.
-    pub(super) sights: Vec<Sight>,
+    pub(super) normalized: Vec<NormalizedMatch>,
     /// Which of the offered matches they are.
     pub(super) kept: Vec<bool>,
     /// Matches offered.
@@ -33,12 +33,12 @@ pub(super) struct CenterView {
 impl CenterView {
     pub(super) fn new(pair: &CenteredPair, problem: &CenterProblem) -> Self {
         let config = problem.rotation;
-        let all = sights(pair.matches.pair, pair.matches.sigma_px, problem.camera);
-        let usable: Vec<Sight> = all.iter().flatten().copied().collect();
+        let all = normalized(pair.matches.pair, pair.matches.sigma_px, problem.camera);
+        let usable: Vec<NormalizedMatch> = all.iter().flatten().copied().collect();
         let mut sigma: Vec<f64> = pair.matches.sigma_px.to_vec();
         let widest = 2.0 * config.threshold_px / upper_median(&mut sigma).unwrap_or(config.sigma_px);
         let mut view = CenterView {
-            sights: Vec::new(),
+            normalized: Vec::new(),
             kept: vec![false; all.len()],
             offered: all.len(),
             widest,
@@ -54,16 +54,16 @@ impl CenterView {
 
     /// The same pair with at most `count` of its matches, evenly chosen.
     pub(super) fn thinned(&self, count: usize) -> Self {
-        let step = self.sights.len().div_ceil(count).max(1);
+        let step = self.normalized.len().div_ceil(count).max(1);
         CenterView {
-            sights: self.sights.iter().step_by(step).copied().collect(),
+            normalized: self.normalized.iter().step_by(step).copied().collect(),
             kept: Vec::new(),
             five_point: self.five_point.clone(),
             ..*self
         }
     }
 
-    fn select(&mut self, all: &[Option<Sight>], usable: &[Sight], problem: &CenterProblem) {
+    fn select(&mut self, all: &[Option<NormalizedMatch>], usable: &[NormalizedMatch], problem: &CenterProblem) {
         let (focal_px, config) = (problem.camera.mean_focal_px(), problem.rotation);
         if is_still(usable) {
             self.failure = Some(PairStatus::NoMotion);
@@ -71,8 +71,8 @@ impl CenterView {
         }
         let essential = usac::essential(usable, focal_px, config).ok().flatten();
         let planes = usac::homography(usable, focal_px, config).map(|h| usac::planes(&h)).unwrap_or_default();
-        let flags = plausible(usable, &planes, essential.as_ref(), self.widest);
-        self.sights = usable.iter().zip(&flags).filter(|(_, keep)| **keep).map(|(s, _)| *s).collect();
+        let flags = passes_parallax_gate(usable, &planes, essential.as_ref(), self.widest);
+        self.normalized = usable.iter().zip(&flags).filter(|(_, keep)| **keep).map(|(s, _)| *s).collect();
         let mut flags = flags.iter();
         self.kept = all.iter().map(|s| s.is_some() && *flags.next().unwrap_or(&false)).collect();
         let motions = essential.as_ref().map(usac::motions).unwrap_or_default();
@@ -99,7 +99,7 @@ impl CenterView {
         starts
     }
 
-    /// Flags of the plausible matches, spread over all offered.
+    /// Flags of the passes_parallax_gate matches, spread over all offered.
     pub(super) fn spread(&self, flags: &[bool]) -> Vec<bool> {
         let mut flags = flags.iter();
         self.kept.iter().map(|k| *k && *flags.next().unwrap_or(&false)).collect()
@@ -107,8 +107,8 @@ impl CenterView {
 }
 
 /// Whether the matches show no motion: their median displacement is below twice its noise.
-fn is_still(sights: &[Sight]) -> bool {
-    let mut sizes: Vec<f64> = sights
+fn is_still(normalized: &[NormalizedMatch]) -> bool {
+    let mut sizes: Vec<f64> = normalized
         .iter()
         .map(|s| (s.to - s.from).norm_squared() / (s.from_covariance + s.to_covariance).trace().max(1e-300))
         .collect();
@@ -123,10 +123,11 @@ pub(super) fn best_start(
     config: &RotationConfig,
 ) -> Option<AboutCenter> {
     const SCREENING: usize = 100;
-    if view.failure.is_some() || view.sights.len() < config.min_matches {
+    if view.failure.is_some() || view.normalized.len() < config.min_matches {
         return None;
     }
-    let few: Vec<Sight> = view.sights.iter().step_by(view.sights.len().div_ceil(SCREENING)).copied().collect();
+    let few: Vec<NormalizedMatch> =
+        view.normalized.iter().step_by(view.normalized.len().div_ceil(SCREENING)).copied().collect();
     let loss = Loss::Cauchy(view.widest);
     let mut screened: Vec<(f64, AboutCenter)> = Vec::new();
     for rotation in starts {
@@ -139,20 +140,20 @@ pub(super) fn best_start(
         }
     }
     screened.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let refined = screened.into_iter().take(2).map(|(_, m)| fit(m, &view.sights, view.widest).model);
-    let acceptable = refined.filter(|m| is_near_side(m, &view.sights));
+    let refined = screened.into_iter().take(2).map(|(_, m)| fit(m, &view.normalized, view.widest).model);
+    let acceptable = refined.filter(|m| is_near_side(m, &view.normalized));
     acceptable.min_by(|a, b| {
-        let c = |m: &AboutCenter| cost::<3, _>(m, &view.sights, Loss::Truncated(view.widest / 2.0));
+        let c = |m: &AboutCenter| cost::<3, _>(m, &view.normalized, Loss::Truncated(view.widest / 2.0));
         c(a).total_cmp(&c(b))
     })
 }
 
 /// Whether the surface lies in front of both cameras, and most of it nearer than the centre: what one sees of a body is
 /// its near side. The reversed solution of a narrow field of view (Necker's) puts it beyond.
-pub(super) fn is_near_side(model: &AboutCenter, sights: &[Sight]) -> bool {
+pub(super) fn is_near_side(model: &AboutCenter, normalized: &[NormalizedMatch]) -> bool {
     let t = model.translation();
     let (mut near, mut seen) = (0, 0);
-    for s in sights {
+    for s in normalized {
         let (a, b) = ((model.rotation * s.first_ray()).normalize(), s.second_ray().normalize());
         let across = a.cross(&b);
         if across.norm_squared() < 16.0 * (s.from_covariance.trace() + s.to_covariance.trace()) {
@@ -162,5 +163,5 @@ pub(super) fn is_near_side(model: &AboutCenter, sights: &[Sight]) -> bool {
         seen += 1;
         near += usize::from(range > 0.0 && range < 1.0);
     }
-    near * 2 >= seen && !Cheirality::of(model.rotation, &t, sights).contradicts()
+    near * 2 >= seen && !Cheirality::of(model.rotation, &t, normalized).contradicts()
 }

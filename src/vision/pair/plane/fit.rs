@@ -1,10 +1,10 @@
 //! Maximum likelihood of a plane with relief, by scoring on the matches that agree.
 
-use super::model::{Axes, Ground, Information, PARAMETERS, Parameters, RELIEF};
+use super::model::{Axes, Information, PARAMETERS, Parameters, RELIEF, ReliefPlane};
 use super::start::with_variances;
 use crate::stats::{LeastSquares, LeastSquaresOptions, NormalEquations, Steps, minimize};
 use crate::vision::pair::covariance::{cells, covariance_of_rotation};
-use crate::vision::pair::normalized_match::Sight;
+use crate::vision::pair::normalized_match::NormalizedMatch;
 use nalgebra::{Const, Matrix3};
 
 /// A match further off than this many σ (two degrees of freedom) is wrong: the tail is below 0.3 %.
@@ -12,8 +12,8 @@ pub(super) const GATE_SIGMA: f64 = 3.45;
 
 /// A ground fitted to the matches that agree with it.
 #[derive(Debug, Clone)]
-pub struct GroundFit {
-    pub ground: Ground,
+pub struct ReliefPlaneFit {
+    pub ground: ReliefPlane,
     /// Which matches agree.
     pub inliers: Vec<bool>,
 }
@@ -29,11 +29,11 @@ const SCORING: LeastSquaresOptions = LeastSquaresOptions {
 
 /// The matches that agree with a ground.
 struct Agreeing<'a> {
-    sights: &'a [Sight],
+    normalized: &'a [NormalizedMatch],
     inliers: &'a [bool],
 }
 
-impl GroundFit {
+impl ReliefPlaneFit {
     /// Matches that agree.
     pub fn inlier_count(&self) -> usize {
         self.inliers.iter().filter(|i| **i).count()
@@ -45,30 +45,30 @@ impl GroundFit {
     }
 
     /// The matches that agree.
-    pub fn agreeing(&self, sights: &[Sight]) -> Vec<Sight> {
-        sights.iter().zip(&self.inliers).filter(|(_, inlier)| **inlier).map(|(s, _)| *s).collect()
+    pub fn agreeing(&self, normalized: &[NormalizedMatch]) -> Vec<NormalizedMatch> {
+        normalized.iter().zip(&self.inliers).filter(|(_, inlier)| **inlier).map(|(s, _)| *s).collect()
     }
 
     /// `-2 ln` of the likelihood of each match, none counting beyond the gate.
-    pub fn costs(&self, sights: &[Sight]) -> Vec<f64> {
+    pub fn costs(&self, normalized: &[NormalizedMatch]) -> Vec<f64> {
         const BEHIND: (f64, f64) = (f64::INFINITY, 0.0);
         let homography = self.ground.homography();
-        let cost = |s: &Sight| {
+        let cost = |s: &NormalizedMatch| {
             let (square, ln_determinant) = self.ground.misfit(&homography, s).unwrap_or(BEHIND);
             square.min(GATE_SIGMA * GATE_SIGMA) + ln_determinant
         };
-        sights.iter().map(cost).collect()
+        normalized.iter().map(cost).collect()
     }
 
     /// Covariance (rad²) of the rotation, all else marginalised and neighbouring matches erring together; `None` where it
     /// is not determined.
-    pub fn rotation_covariance(&self, sights: &[Sight]) -> Option<Matrix3<f64>> {
-        let agreeing = self.agreeing(sights);
+    pub fn rotation_covariance(&self, normalized: &[NormalizedMatch]) -> Option<Matrix3<f64>> {
+        let agreeing = self.agreeing(normalized);
         let axes = Axes::of(&self.ground);
         let mut information = Information::zeros();
         let mut scores = Vec::with_capacity(agreeing.len());
-        for sight in &agreeing {
-            let evidence = self.ground.evidence(&axes, sight)?;
+        for matched in &agreeing {
+            let evidence = self.ground.evidence(&axes, matched)?;
             information += evidence.information();
             scores.push(evidence.score());
         }
@@ -87,43 +87,48 @@ fn hold_relief(information: &mut Information) {
     information[(RELIEF, RELIEF)] = 1.0;
 }
 
-/// Fits a ground from a start, first to matches within `widest` (units of the nominal σ) of the start's epipolar lines.
-pub fn fit_ground(start: &Ground, sights: &[Sight], widest: f64, rounds: usize) -> GroundFit {
-    let mut ground = with_variances(start, sights, widest);
-    let mut inliers = agreeing(&ground, sights);
+/// Hypotheses a ground from a start, first to matches within `widest` (units of the nominal σ) of the start's epipolar lines.
+pub fn fit_relief_plane(
+    start: &ReliefPlane,
+    normalized: &[NormalizedMatch],
+    widest: f64,
+    rounds: usize,
+) -> ReliefPlaneFit {
+    let mut ground = with_variances(start, normalized, widest);
+    let mut inliers = agreeing(&ground, normalized);
     for _ in 0..rounds {
-        ground = minimize(&Agreeing { sights, inliers: &inliers }, ground, &SCORING).state;
-        let next = agreeing(&ground, sights);
+        ground = minimize(&Agreeing { normalized, inliers: &inliers }, ground, &SCORING).state;
+        let next = agreeing(&ground, normalized);
         let settled = next == inliers;
         inliers = next;
         if settled {
             break;
         }
     }
-    GroundFit { ground, inliers }
+    ReliefPlaneFit { ground, inliers }
 }
 
-fn agreeing(ground: &Ground, sights: &[Sight]) -> Vec<bool> {
+fn agreeing(ground: &ReliefPlane, normalized: &[NormalizedMatch]) -> Vec<bool> {
     let homography = ground.homography();
-    let near = |s: &Sight| ground.misfit(&homography, s).is_some_and(|(d2, _)| d2 < GATE_SIGMA * GATE_SIGMA);
-    sights.iter().map(near).collect()
+    let near = |s: &NormalizedMatch| ground.misfit(&homography, s).is_some_and(|(d2, _)| d2 < GATE_SIGMA * GATE_SIGMA);
+    normalized.iter().map(near).collect()
 }
 
 impl Agreeing<'_> {
-    fn iter(&self) -> impl Iterator<Item = &Sight> {
-        self.sights.iter().zip(self.inliers).filter(|(_, inlier)| **inlier).map(|(sight, _)| sight)
+    fn iter(&self) -> impl Iterator<Item = &NormalizedMatch> {
+        self.normalized.iter().zip(self.inliers).filter(|(_, inlier)| **inlier).map(|(matched, _)| matched)
     }
 }
 
 impl LeastSquares for Agreeing<'_> {
     type Size = Const<PARAMETERS>;
-    type State = Ground;
+    type State = ReliefPlane;
 
     /// Score and information; relief that would become negative stays at nothing.
-    fn normal_equations(&self, ground: &Ground) -> NormalEquations<Const<PARAMETERS>> {
+    fn normal_equations(&self, ground: &ReliefPlane) -> NormalEquations<Const<PARAMETERS>> {
         let axes = Axes::of(ground);
         let (mut information, mut right_side, mut cost) = (Information::zeros(), Parameters::zeros(), 0.0);
-        for evidence in self.iter().filter_map(|sight| ground.evidence(&axes, sight)) {
+        for evidence in self.iter().filter_map(|matched| ground.evidence(&axes, matched)) {
             cost += evidence.cost;
             right_side += evidence.score();
             information += evidence.information();
@@ -139,13 +144,13 @@ impl LeastSquares for Agreeing<'_> {
         NormalEquations { information, right_side, cost }
     }
 
-    fn cost(&self, ground: &Ground) -> f64 {
+    fn cost(&self, ground: &ReliefPlane) -> f64 {
         let homography = ground.homography();
-        let of = |s: &Sight| ground.misfit(&homography, s).map_or(1e9, |(d2, ln_det)| d2 + ln_det);
+        let of = |s: &NormalizedMatch| ground.misfit(&homography, s).map_or(1e9, |(d2, ln_det)| d2 + ln_det);
         self.iter().map(of).sum()
     }
 
-    fn moved(&self, ground: &Ground, step: &Parameters) -> Option<Ground> {
+    fn moved(&self, ground: &ReliefPlane, step: &Parameters) -> Option<ReliefPlane> {
         Some(ground.moved(step))
     }
 }

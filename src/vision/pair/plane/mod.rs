@@ -4,6 +4,6 @@ mod fit;
 mod model;
 mod start;
 
-pub use fit::{GroundFit, fit_ground};
-pub use model::{Ground, whitening};
+pub use fit::{ReliefPlaneFit, fit_relief_plane};
+pub use model::{ReliefPlane, whitening};
 pub use start::plane_of_motion;

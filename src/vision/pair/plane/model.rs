@@ -11,7 +11,7 @@
 //! whose mean and covariance both depend on the parameters (Kay 1993, eq. 3.31).
 
 use crate::geometry::so3::{exp, tangent_basis};
-use crate::vision::pair::normalized_match::Sight;
+use crate::vision::pair::normalized_match::NormalizedMatch;
 use nalgebra::{Matrix2, Matrix2x3, Matrix3, SMatrix, SVector, Unit, UnitQuaternion, Vector2, Vector3};
 
 /// Free parameters: rotation (3), translation over the plane's distance (3), normal (2), variances of relief and noise.
@@ -30,7 +30,7 @@ pub(super) type Information = SMatrix<f64, PARAMETERS, PARAMETERS>;
 
 /// Motion over a plane with relief. A point `x` in the first camera is `R x + t` in the second.
 #[derive(Debug, Clone, Copy)]
-pub struct Ground {
+pub struct ReliefPlane {
     /// `R`; errors turn it as `exp(d) R`.
     pub rotation: UnitQuaternion<f64>,
     /// `m = t` over the plane's distance, in the second camera.
@@ -76,7 +76,7 @@ impl Evidence {
     }
 }
 
-impl Ground {
+impl ReliefPlane {
     /// `H = R + m nᵀ`.
     pub fn homography(&self) -> Matrix3<f64> {
         self.rotation.to_rotation_matrix().into_inner() + self.translation * self.normal.transpose()
@@ -85,7 +85,7 @@ impl Ground {
     /// The ground moved along its parameters; variances stay above nothing.
     pub(super) fn moved(&self, step: &Parameters) -> Self {
         let aside = tangent_basis(&self.normal) * step.fixed_rows::<2>(6);
-        Ground {
+        ReliefPlane {
             rotation: exp(&step.fixed_rows::<3>(0).into_owned()) * self.rotation,
             translation: self.translation + step.fixed_rows::<3>(3),
             normal: Unit::new_normalize(self.normal.into_inner() + aside),
@@ -95,8 +95,8 @@ impl Ground {
     }
 
     /// The image of a match; `None` where the plane lies behind the second camera.
-    pub fn predict(&self, homography: &Matrix3<f64>, sight: &Sight) -> Option<Prediction> {
-        let p = homography * sight.first_ray();
+    pub fn predict(&self, homography: &Matrix3<f64>, matched: &NormalizedMatch) -> Option<Prediction> {
+        let p = homography * matched.first_ray();
         if p.z <= 1e-9 {
             return None;
         }
@@ -104,9 +104,9 @@ impl Ground {
         let projection = Matrix2x3::new(1.0, 0.0, -image.x, 0.0, 1.0, -image.y) / p.z;
         let by_from = projection * homography.fixed_columns::<2>(0);
         Some(Prediction {
-            residual: sight.to - image,
+            residual: matched.to - image,
             by_relief: projection * self.translation,
-            nominal: sight.to_covariance + by_from * sight.from_covariance * by_from.transpose(),
+            nominal: matched.to_covariance + by_from * matched.from_covariance * by_from.transpose(),
             projection,
             depth: p.z,
         })
@@ -118,8 +118,8 @@ impl Ground {
     }
 
     /// Squared Mahalanobis distance of a match (two degrees of freedom) and the logarithm of its covariance's determinant.
-    pub(super) fn misfit(&self, homography: &Matrix3<f64>, sight: &Sight) -> Option<(f64, f64)> {
-        let seen = self.predict(homography, sight)?;
+    pub(super) fn misfit(&self, homography: &Matrix3<f64>, matched: &NormalizedMatch) -> Option<(f64, f64)> {
+        let seen = self.predict(homography, matched)?;
         let s = self.covariance(&seen);
         let determinant = s.m11 * s.m22 - s.m12 * s.m21;
         let r = &seen.residual;
@@ -128,8 +128,13 @@ impl Ground {
     }
 
     /// Derivatives of image and `g` by the eight geometric parameters.
-    fn derivatives(&self, seen: &Prediction, sight: &Sight, axes: &Axes) -> [(Vector2<f64>, Vector2<f64>); GEOMETRY] {
-        let x = sight.first_ray();
+    fn derivatives(
+        &self,
+        seen: &Prediction,
+        matched: &NormalizedMatch,
+        axes: &Axes,
+    ) -> [(Vector2<f64>, Vector2<f64>); GEOMETRY] {
+        let x = matched.first_ray();
         let turned = axes.rotation * x;
         let inverse_depth = self.normal.dot(&x);
         let derivative = |j: usize| {
@@ -149,14 +154,14 @@ impl Ground {
     }
 
     /// What a match says; `None` where the plane lies behind the second camera.
-    pub(super) fn evidence(&self, axes: &Axes, sight: &Sight) -> Option<Evidence> {
+    pub(super) fn evidence(&self, axes: &Axes, matched: &NormalizedMatch) -> Option<Evidence> {
         const H: f64 = std::f64::consts::FRAC_1_SQRT_2;
-        let seen = self.predict(&axes.homography, sight)?;
+        let seen = self.predict(&axes.homography, matched)?;
         let (whitening, ln_determinant) = whitening(&self.covariance(&seen));
         let (z, g) = (whitening * seen.residual, whitening * seen.by_relief);
         // Half the inner product of symmetric matrices, as that of (m11, √2 m12, m22) / √2.
         let mut rows = SMatrix::<f64, 5, PARAMETERS>::zeros();
-        for (j, (image, turn)) in self.derivatives(&seen, sight, axes).iter().enumerate() {
+        for (j, (image, turn)) in self.derivatives(&seen, matched, axes).iter().enumerate() {
             let (mean, t) = (whitening * image, whitening * turn * self.relief_variance);
             let column = [mean.x, mean.y, 2.0 * H * g.x * t.x, g.x * t.y + g.y * t.x, 2.0 * H * g.y * t.y];
             rows.set_column(j, &SVector::from(column));
@@ -185,7 +190,7 @@ pub(super) struct Axes {
 }
 
 impl Axes {
-    pub(super) fn of(ground: &Ground) -> Self {
+    pub(super) fn of(ground: &ReliefPlane) -> Self {
         Axes {
             homography: ground.homography(),
             rotation: ground.rotation.to_rotation_matrix().into_inner(),
@@ -200,8 +205,8 @@ mod tests {
     use crate::stats::random_stream;
     use rand_distr::{Distribution, StandardNormal};
 
-    fn ground() -> Ground {
-        Ground {
+    fn ground() -> ReliefPlane {
+        ReliefPlane {
             rotation: exp(&Vector3::new(0.02, -0.015, 0.3)),
             translation: Vector3::new(0.02, 0.03, -0.1),
             normal: Unit::new_normalize(Vector3::new(0.2, -0.1, 0.97)),
@@ -210,29 +215,30 @@ mod tests {
         }
     }
 
-    fn sight() -> Sight {
+    fn matched() -> NormalizedMatch {
         let from_covariance = Matrix2::new(4.0, 1.0, 1.0, 2.0) * 1e-7;
         let to_covariance = Matrix2::new(3.0, -1.0, -1.0, 5.0) * 1e-7;
-        let mut sight = Sight { from: Vector2::new(0.3, -0.2), to: Vector2::zeros(), from_covariance, to_covariance };
-        let seen = ground().predict(&ground().homography(), &sight).expect("ahead");
-        sight.to = -seen.residual + Vector2::new(8e-4, -5e-4);
-        sight
+        let mut matched =
+            NormalizedMatch { from: Vector2::new(0.3, -0.2), to: Vector2::zeros(), from_covariance, to_covariance };
+        let seen = ground().predict(&ground().homography(), &matched).expect("ahead");
+        matched.to = -seen.residual + Vector2::new(8e-4, -5e-4);
+        matched
     }
 
-    fn cost(ground: &Ground, sight: &Sight) -> f64 {
-        let (square, ln_determinant) = ground.misfit(&ground.homography(), sight).expect("ahead");
+    fn cost(ground: &ReliefPlane, matched: &NormalizedMatch) -> f64 {
+        let (square, ln_determinant) = ground.misfit(&ground.homography(), matched).expect("ahead");
         square + ln_determinant
     }
 
     #[test]
     fn the_score_is_the_derivative_of_the_likelihood() {
         // The nominal noise is taken as known where the image moves: its share in the score is left out, so its step is.
-        let sight = Sight { from_covariance: Matrix2::zeros(), ..sight() };
-        let evidence = ground().evidence(&Axes::of(&ground()), &sight).expect("ahead");
+        let matched = NormalizedMatch { from_covariance: Matrix2::zeros(), ..matched() };
+        let evidence = ground().evidence(&Axes::of(&ground()), &matched).expect("ahead");
         for j in 0..PARAMETERS {
             let step = [1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-6, 1e-6, 1e-8, 1e-5][j];
             let d = Parameters::ith(j, step);
-            let numeric = -(cost(&ground().moved(&d), &sight) - cost(&ground().moved(&-d), &sight)) / (4.0 * step);
+            let numeric = -(cost(&ground().moved(&d), &matched) - cost(&ground().moved(&-d), &matched)) / (4.0 * step);
             let off = (numeric - evidence.score()[j]).abs();
             assert!(off < 1e-5 * evidence.score()[j].abs() + 1e-3, "{j}: {numeric} against {}", evidence.score()[j]);
         }
@@ -241,13 +247,13 @@ mod tests {
     /// Mean ratio of the scores' spread to the information, over matches drawn with a relief of their own.
     fn spread_over_information(relief_variance: f64) -> f64 {
         let (axes, model, mut random) = (Axes::of(&ground()), ground(), random_stream(1, "scores", 0));
-        let drawn = Ground { relief_variance, ..model };
-        let seen = drawn.predict(&axes.homography, &sight()).expect("ahead");
+        let drawn = ReliefPlane { relief_variance, ..model };
+        let seen = drawn.predict(&axes.homography, &matched()).expect("ahead");
         let factor = drawn.covariance(&seen).cholesky().expect("positive").l();
         let (mut spread, mut information) = (Parameters::zeros(), Parameters::zeros());
         for _ in 0..20_000 {
             let noise = factor * Vector2::from_fn(|_, _| -> f64 { StandardNormal.sample(&mut random) });
-            let here = Sight { to: sight().to - seen.residual + noise, ..sight() };
+            let here = NormalizedMatch { to: matched().to - seen.residual + noise, ..matched() };
             let evidence = model.evidence(&axes, &here).expect("ahead");
             spread += evidence.score().component_mul(&evidence.score());
             information += evidence.information().diagonal();

@@ -1,10 +1,10 @@
 //! Starts of a plane with relief: the plane through what a known motion sees, and variances from medians.
 
-use super::model::Ground;
+use super::model::ReliefPlane;
 use crate::geometry::so3::hat;
 use crate::stats::{NORMAL_MEDIAN, upper_median};
 use crate::vision::pair::models::General;
-use crate::vision::pair::normalized_match::Sight;
+use crate::vision::pair::normalized_match::NormalizedMatch;
 use crate::vision::pair::residual::{Relation, residual};
 use nalgebra::{Matrix3, Unit, Vector2, Vector3};
 
@@ -14,12 +14,12 @@ const LEAST_NOISE: f64 = 0.03;
 const FEWEST: usize = 8;
 
 /// The plane through what two cameras with a known motion see; `None` where there is none.
-pub fn plane_of_motion(motion: &General, sights: &[Sight], widest: f64) -> Option<Ground> {
+pub fn plane_of_motion(motion: &General, normalized: &[NormalizedMatch], widest: f64) -> Option<ReliefPlane> {
     let turn = motion.rotation.to_rotation_matrix().into_inner();
     let essential = hat(&motion.direction) * turn;
-    let on_line = |s: &&Sight| residual(Relation::Epipolar, &essential, s).x.abs() < widest;
+    let on_line = |s: &&NormalizedMatch| residual(Relation::Epipolar, &essential, s).x.abs() < widest;
     // Inverse depth ρ of each match, from `to × (R x + t ρ) = 0`, with its weight.
-    let seen: Vec<(Vector3<f64>, f64, f64)> = sights
+    let seen: Vec<(Vector3<f64>, f64, f64)> = normalized
         .iter()
         .filter(on_line)
         .map(|s| {
@@ -43,7 +43,7 @@ pub fn plane_of_motion(motion: &General, sights: &[Sight], widest: f64) -> Optio
     }
     let normal = Unit::try_new(plane, 1e-12)?;
     let translation = motion.direction.into_inner() * plane.norm();
-    Some(Ground { rotation: motion.rotation, translation, normal, relief_variance: 0.0, noise_variance: 1.0 })
+    Some(ReliefPlane { rotation: motion.rotation, translation, normal, relief_variance: 0.0, noise_variance: 1.0 })
 }
 
 /// A match's residuals against a ground: across the line to the epipole in units of the nominal σ, along it in units of
@@ -55,8 +55,8 @@ struct Off {
 }
 
 impl Off {
-    fn of(ground: &Ground, homography: &Matrix3<f64>, sight: &Sight) -> Option<Off> {
-        let seen = ground.predict(homography, sight)?;
+    fn of(ground: &ReliefPlane, homography: &Matrix3<f64>, matched: &NormalizedMatch) -> Option<Off> {
+        let seen = ground.predict(homography, matched)?;
         let length = seen.by_relief.norm().max(1e-12);
         let along = seen.by_relief / length;
         let across = Vector2::new(-along.y, along.x);
@@ -70,9 +70,9 @@ impl Off {
 
 /// The start with variances from medians: noise from the residuals across the lines to the epipole that lie within
 /// `widest` of the nominal σ, relief from those along them.
-pub(super) fn with_variances(start: &Ground, sights: &[Sight], widest: f64) -> Ground {
+pub(super) fn with_variances(start: &ReliefPlane, normalized: &[NormalizedMatch], widest: f64) -> ReliefPlane {
     let homography = start.homography();
-    let mut near: Vec<Off> = sights.iter().filter_map(|s| Off::of(start, &homography, s)).collect();
+    let mut near: Vec<Off> = normalized.iter().filter_map(|s| Off::of(start, &homography, s)).collect();
     near.retain(|o| o.across_sigma < widest);
     let most = widest / 3.0;
     let middle = |value: fn(&Off) -> f64, from: &[Off]| upper_median(&mut from.iter().map(value).collect::<Vec<f64>>());
@@ -84,5 +84,5 @@ pub(super) fn with_variances(start: &Ground, sights: &[Sight], widest: f64) -> G
     let by_noise = middle(|o| o.relief_variance, &near).unwrap_or(1.0) * noise.powi(2);
     let spread = middle(|o| o.relief, &near).unwrap_or(1.0) / NORMAL_MEDIAN;
     let relief_variance = (spread.powi(2) - by_noise).max(0.01 * by_noise);
-    Ground { relief_variance, noise_variance: noise.powi(2), ..*start }
+    ReliefPlane { relief_variance, noise_variance: noise.powi(2), ..*start }
 }

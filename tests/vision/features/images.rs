@@ -68,7 +68,7 @@ fn predicted_sigma_grows_with_noise_as_the_error_does() {
 }
 
 #[test]
-fn noise_is_estimated_from_the_picture() {
+fn noise_is_estimated_from_the_image() {
     for noise_dn in [2.0, 5.0] {
         let estimate = noise_sigma_dn(&picture(SIDE, SIDE, noise_dn, 3, |p| p));
         assert!((0.8..1.6).contains(&(estimate / noise_dn)), "{estimate} for {noise_dn}");

@@ -1,12 +1,12 @@
-//! Statistics of natural pictures, to tell whether rendered ground looks like photographed ground.
+//! Statistics of natural images, to tell whether rendered ground looks like photographed ground.
 
 use image::GrayImage;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
-/// Statistics of one picture.
+/// Statistics of one image.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PictureStatistics {
+pub struct ImageStatistics {
     /// Exponent of the radial power spectrum: power ~ frequency to this power; about -2 for natural scenes (van der Schaaf
     /// and van Hateren, "Modelling the power spectra of natural images", Vision Research 36(17), 1996).
     pub spectrum_slope: f64,
@@ -20,20 +20,20 @@ pub struct PictureStatistics {
 
 /// Frequencies in cycles/px between which the spectrum's exponent is fitted: above the window's, below the optics'.
 const FITTED_1_PX: [f64; 2] = [0.01, 0.25];
-/// Least edge of a picture in px that has ten frequencies in that range.
+/// Least edge of an image in px that has ten frequencies in that range.
 const LEAST_EDGE_PX: u32 = 48;
 
-impl PictureStatistics {
-    /// Statistics of the largest square in the middle of a picture; `None` if that is smaller than 48 px or all of one
+impl ImageStatistics {
+    /// Statistics of the largest square in the middle of an image; `None` if that is smaller than 48 px or all of one
     /// grey level.
-    pub fn of(picture: &GrayImage) -> Option<PictureStatistics> {
-        let edge = picture.width().min(picture.height());
+    pub fn of(image: &GrayImage) -> Option<ImageStatistics> {
+        let edge = image.width().min(image.height());
         if edge < LEAST_EDGE_PX {
             return None;
         }
-        let (left, top) = ((picture.width() - edge) / 2, (picture.height() - edge) / 2);
+        let (left, top) = ((image.width() - edge) / 2, (image.height() - edge) / 2);
         let grey = (0..edge * edge)
-            .map(|k| f64::from(picture.get_pixel(left + k % edge, top + k / edge)[0]))
+            .map(|k| f64::from(image.get_pixel(left + k % edge, top + k / edge)[0]))
             .collect::<Vec<_>>();
         let mean = grey.iter().sum::<f64>() / grey.len() as f64;
         let variance = grey.iter().map(|g| (g - mean).powi(2)).sum::<f64>() / grey.len() as f64;
@@ -41,7 +41,7 @@ impl PictureStatistics {
             return None;
         }
         let edge = edge as usize;
-        Some(PictureStatistics {
+        Some(ImageStatistics {
             spectrum_slope: spectrum_slope(&grey, edge),
             gradient_kurtosis: gradient_kurtosis(&grey, edge),
             grey_spread_dn: variance.sqrt(),
@@ -75,7 +75,7 @@ fn spectrum_slope(grey: &[f64], edge: usize) -> f64 {
     (w * xy - x * y) / (w * xx - x * x)
 }
 
-/// Mean power at each whole number of cycles across the picture, after a Hann window.
+/// Mean power at each whole number of cycles across the image, after a Hann window.
 fn radial_power(grey: &[f64], edge: usize) -> Vec<f64> {
     let window: Vec<f64> =
         (0..edge).map(|k| 0.5 - 0.5 * (std::f64::consts::TAU * (k as f64 + 0.5) / edge as f64).cos()).collect();

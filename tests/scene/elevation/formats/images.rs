@@ -6,7 +6,7 @@ use opnav::scene::{Georeference, RasterFile, RawLayout, SampleKind};
 use tiff::encoder::colortype;
 
 #[test]
-fn pictures_have_a_scale_from_the_scenario() {
+fn images_have_a_scale_from_the_scenario() {
     let folder = folder();
     let grey: Vec<u16> = heights().iter().map(|h| (10.0 * (h + 2000.0)) as u16).collect();
     image::ImageBuffer::<image::Luma<u16>, _>::from_raw(COLUMNS as u32, ROWS as u32, grey)

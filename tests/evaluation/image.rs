@@ -1,7 +1,7 @@
 //! Statistics of pictures, on pictures whose statistics are known.
 
 use image::{GrayImage, Luma};
-use opnav::evaluation::PictureStatistics;
+use opnav::evaluation::ImageStatistics;
 use opnav::stats::random_stream;
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
@@ -31,8 +31,8 @@ fn waves(exponent: f64, seed: u64) -> GrayImage {
     })
 }
 
-fn of(picture: &GrayImage) -> PictureStatistics {
-    PictureStatistics::of(picture).expect("a picture with texture")
+fn of(picture: &GrayImage) -> ImageStatistics {
+    ImageStatistics::of(picture).expect("a picture with texture")
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn edges_on_smooth_ground_raise_the_kurtosis() {
 }
 
 #[test]
-fn pictures_without_statistics_have_none() {
-    assert_eq!(PictureStatistics::of(&GrayImage::from_pixel(200, 200, Luma([77]))), None);
-    assert_eq!(PictureStatistics::of(&GrayImage::new(47, 300)), None);
+fn images_without_statistics_have_none() {
+    assert_eq!(ImageStatistics::of(&GrayImage::from_pixel(200, 200, Luma([77]))), None);
+    assert_eq!(ImageStatistics::of(&GrayImage::new(47, 300)), None);
 }

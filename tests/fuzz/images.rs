@@ -109,7 +109,7 @@ fuzzed! {
     tiff_real: real();
     bmp: common("bmp", ImageFormat::Bmp);
     pnm: common("pnm", ImageFormat::Pnm);
-    depth_pictures: depth();
+    depth_images: depth();
     masks: mask();
     flow_fields: flow();
 }

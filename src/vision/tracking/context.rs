@@ -9,7 +9,7 @@ use nalgebra::{Matrix2, Unit, UnitQuaternion, Vector3};
 use std::time::Instant;
 
 /// The fixed part of the work.
-pub struct Job<'a> {
+pub struct TrackingContext<'a> {
     pub sequence: &'a ImageSequence,
     pub config: &'a FrontEndConfig,
     pub prior: Option<RotationPrediction<'a>>,
@@ -19,7 +19,7 @@ pub struct Job<'a> {
 /// The centre of rotation with its covariance, in the fixed-centre mode.
 pub type Center = Option<(Unit<Vector3<f64>>, Matrix2<f64>)>;
 
-impl Job<'_> {
+impl TrackingContext<'_> {
     pub fn camera(&self) -> &Camera {
         &self.sequence.sensor.camera
     }

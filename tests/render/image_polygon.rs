@@ -8,23 +8,23 @@ const PIECES: usize = 8;
 
 /// A polygon in pixel coordinates.
 #[derive(Debug, Clone)]
-pub struct PicturePolygon {
+pub struct ImagePolygon {
     corners_px: Vec<Vector2<f64>>,
 }
 
-impl PicturePolygon {
+impl ImagePolygon {
     /// The picture of a polygon whose corners are given in camera axes.
     pub fn of(camera: &Camera, corners_m: &[Vector3<f64>]) -> Self {
         let next = corners_m.iter().cycle().skip(1);
         let places =
             corners_m.iter().zip(next).flat_map(|(a, b)| (0..PIECES).map(move |k| a.lerp(b, k as f64 / PIECES as f64)));
-        PicturePolygon { corners_px: places.map(|p| camera.project(&p).expect("in front of the lens")).collect() }
+        ImagePolygon { corners_px: places.map(|p| camera.project(&p).expect("in front of the lens")).collect() }
     }
 
     /// Mirrored in a picture of this height.
     pub fn upside_down(&self, height_px: u32) -> Self {
         let mirror = |p: &Vector2<f64>| Vector2::new(p.x, f64::from(height_px) - 1.0 - p.y);
-        PicturePolygon { corners_px: self.corners_px.iter().map(mirror).collect() }
+        ImagePolygon { corners_px: self.corners_px.iter().map(mirror).collect() }
     }
 
     /// Centroid of its area in px.
