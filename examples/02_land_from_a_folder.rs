@@ -9,6 +9,7 @@ use opnav::dataset::truth::read_lander_states;
 use opnav::dataset::{CameraSource, ImageSequence, read_designated, read_imu, read_initial_state};
 use opnav::navigation::landing::{LandingConfig, LandingInput, image_rotations, navigate};
 use opnav::pipeline::{Silent, SynthesizeRequest, synthesize};
+use opnav::settings::Layers;
 use opnav::vision::{FrontEndConfig, TrackInputs, drift_per_image_px, track_sequence};
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -64,7 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A descent from 6.6 km to 15 m in 30 small pictures.
+/// A descent from 6.6 km to 15 m in 40 small pictures.
 fn render_small_descent(into: &Path) -> Result<PathBuf, Box<dyn Error>> {
     let scenario = into.join("descent.toml");
     std::fs::write(
@@ -72,7 +73,7 @@ fn render_small_descent(into: &Path) -> Result<PathBuf, Box<dyn Error>> {
         "camera = { width_px = 256, height_px = 256 }\n[descent.schedule.constant-scale]\ncount = 40\n",
     )?;
     let out = into.join("descent");
-    let (overrides, frames, resume, adapter) = (Vec::new(), None, false, None);
-    synthesize(&SynthesizeRequest { scenario, out: out.clone(), overrides, frames, resume, adapter }, &Silent)?;
+    let (layers, frames, resume, adapter) = (Layers::default(), None, false, None);
+    synthesize(&SynthesizeRequest { scenario, out: out.clone(), layers, frames, resume, adapter }, &Silent)?;
     Ok(out)
 }

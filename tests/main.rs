@@ -24,7 +24,7 @@ mod render;
 mod report;
 #[cfg(feature = "scene")]
 mod scene;
-#[cfg(feature = "settings")]
+#[cfg(all(feature = "report", feature = "scene", feature = "vision"))]
 mod settings;
 mod stats;
 #[cfg(feature = "vision")]
