@@ -163,7 +163,7 @@ fn pairs(scenes: &Scenes, model: &mut NoiseModel, found: &mut Vec<Found>) {
     let fit = rotations::constants((&measured, &solved), share, true, "pairs");
     let p = &mut model.pair;
     [p.correlated_error_share, p.growth_by_view, p.far_view, p.over_likeliest] = fit.value;
-    let keys = ["pair.smooth_error_share", "pair.growth_by_view", "pair.far_view", "pair.over_likeliest"];
+    let keys = ["pair.correlated_error_share", "pair.growth_by_view", "pair.far_view", "pair.over_likeliest"];
     add_constants(found, &fit, &keys, GROUNDS, &format!("{VALID}; translation over distance 0.015 to 0.5"));
 }
 
@@ -190,7 +190,7 @@ fn bodies(scenes: &Scenes, model: &mut NoiseModel, found: &mut Vec<Found>) {
     let solved: Vec<Normalized> = all.par_iter().flat_map(solve).collect();
     let fit = rotations::constants((&measured, &solved), share, false, "bodies");
     (model.body.correlated_error_share, model.body.over_likeliest) = (fit.value[0], fit.value[3]);
-    let keys = ["body.smooth_error_share", "", "", "body.over_likeliest"];
+    let keys = ["body.correlated_error_share", "", "", "body.over_likeliest"];
     add_constants(
         found,
         &fit,

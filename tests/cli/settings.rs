@@ -156,7 +156,7 @@ fn tracking_is_made_again_from_its_settings() {
         "--set",
         "front_end.detector.max_features=150",
         "--set",
-        "front_end.rotation.noise.smooth_error_share=0",
+        "front_end.rotation.noise.correlated_error_share=0",
     ];
     made_again(&["track"], pictures().path(), &options);
 }

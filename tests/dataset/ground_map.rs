@@ -11,7 +11,7 @@ fn level(metres_per_px: f64, heights_m: Vec<f32>) -> MapLevel {
     MapLevel {
         metres_per_px,
         first_in_site_m: Vector2::new(-1.0 / 3.0, 2.0),
-        picture: ImageBuffer::from_fn(4, 3, |u, v| Luma([(u * 1000 + v * 17) as u16])),
+        image: ImageBuffer::from_fn(4, 3, |u, v| Luma([(u * 1000 + v * 17) as u16])),
         heights_m,
         sigma_horizontal_m: 0.1 * metres_per_px,
         sigma_vertical_m: 0.25,
@@ -70,7 +70,7 @@ fn eight_bits_span_the_same_range_as_sixteen() {
     let picture = GrayImage::from_fn(4, 3, |u, _| Luma([if u == 0 { 0 } else { 255 }]));
     picture.save(dir.path().join("ortho_0.png")).expect("saved");
     let map = read_ground_map(dir.path()).expect("read");
-    assert_eq!((map.levels[0].picture[(0, 0)].0[0], map.levels[0].picture[(3, 2)].0[0]), (0, u16::MAX));
+    assert_eq!((map.levels[0].image[(0, 0)].0[0], map.levels[0].image[(3, 2)].0[0]), (0, u16::MAX));
 }
 
 #[test]

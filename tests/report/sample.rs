@@ -156,7 +156,7 @@ pub fn sample_page() -> Page {
         let report = MissionReport {
             heading: heading.into(),
             done: done.into(),
-            pictures: pictures(),
+            images: pictures(),
             metrics,
             summary: &summary,
         };

@@ -59,7 +59,7 @@ fn euroc_tum_and_colmap_readers_find_the_same_poses() {
             for pose in theirs {
                 let state = states.iter().find(|s| s.t_ns == pose.t_ns).expect("a state at each picture");
                 let euroc = state.site_from_lander * sensor.spacecraft_from_camera;
-                let image = model.images.iter().find(|i| i.name == camera.picture(pose.t_ns)).expect("an image");
+                let image = model.images.iter().find(|i| i.name == camera.image(pose.t_ns)).expect("an image");
                 assert_eq!(image.camera, place);
                 worst = worst.max(apart(&pose.reference_from_moving, &euroc));
                 worst = worst.max(apart(&pose.reference_from_moving, &image.reference_from_camera));

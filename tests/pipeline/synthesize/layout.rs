@@ -92,7 +92,7 @@ fn two_cameras_have_their_own_images_and_flow_agrees_with_landmarks() {
         let size = if number == 0 { (96, 96) } else { (64, 80) };
         let mask = read_mask_png(&root.join(TruthRaster::Mask.file(&camera, 0))).expect("a mask");
         assert_eq!(mask.dimensions(), size);
-        assert!(root.join(camera.picture(23_000_000_000)).is_file());
+        assert!(root.join(camera.image(23_000_000_000)).is_file());
         landmarks_agree(&root, &camera);
         let [error, control] = flow_errors(&root, &camera);
         println!("cam{number}: flow against landmarks {error:.4} px median; against the wrong picture {control:.2} px");
