@@ -1,4 +1,4 @@
 //! Tests of the wing `vision::features`.
 
 mod detectors;
-mod images;
+pub mod images;

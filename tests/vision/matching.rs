@@ -1,3 +1,4 @@
 //! Tests of the wing `vision::matching`.
 
+mod matcher;
 mod sift;
