@@ -24,14 +24,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let camera = Camera::from_fov(first.width(), first.height(), f64::to_radians(fov_deg));
 
     // Corners, each with the 1σ of its pixel, described by what surrounds them and matched by that.
-    let features = [&first, &second].map(|picture| detect_features(picture, None, &DetectorConfig::default()));
-    let [from, to] = features;
-    let (from, to) = (from?, to?);
-    let matcher = MatcherConfig::default();
+    let (detector, matcher) = (DetectorConfig::default(), MatcherConfig::default());
+    let from = detect_features(&first, None, &detector)?;
+    let to = detect_features(&second, None, &detector)?;
     let from_words = describe_features(&first, &from, Orientation::Centroid, &matcher)?;
     let to_words = describe_features(&second, &to, Orientation::Centroid, &matcher)?;
-    let described = |features, descriptors| Described { features, descriptors };
-    let matches = match_features(described(&from, &from_words), described(&to, &to_words), &matcher)?;
+    let matches = match_features(
+        Described { features: &from, descriptors: &from_words },
+        Described { features: &to, descriptors: &to_words },
+        &matcher,
+    )?;
     println!("{} and {} features, {} matches", from.len(), to.len(), matches.len());
 
     // The rotation that explains the matches best, whether the scene is flat, has relief, or is too far to tell.

@@ -81,7 +81,7 @@ impl House {
             if self.sources.contains_key(&at) && !self.folders.contains(&at) {
                 return Some(at);
             }
-            let Some(word) = ahead.first().cloned() else { return None };
+            let word = ahead.first().cloned()?;
             let child: Module = at.iter().cloned().chain([word.clone()]).collect();
             let handed_on = self.handed_on.get(&at).and_then(|door| door.get(&word));
             let is_module = self.sources.contains_key(&child) || self.folders.contains(&child);

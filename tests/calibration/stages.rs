@@ -18,11 +18,14 @@ const VALID: &str =
     "768² and 1024² px, well of 1500 to 20000 electrons (noise 1 to 7 DN), blur 0.5 to 0.8 px, 50 m to 5.5 km";
 const BODIES: &str = "four procedural bodies, phase 15 to 55°, turning by 3 to 7° an image";
 
+/// Fits one part of the model to the scenes and notes what it found.
+type Stage = fn(&Scenes, &mut NoiseModel, &mut Vec<Found>);
+
 /// Runs every stage from the old constants on.
 pub fn run(old: &NoiseModel) -> Vec<Found> {
     let scenes = FIT.rendered();
     let (mut model, mut found) = (*old, Vec::new());
-    let stages: [(&str, fn(&Scenes, &mut NoiseModel, &mut Vec<Found>)); 6] = [
+    let stages: [(&str, Stage); 6] = [
         ("corners", corners),
         ("patches", patches),
         ("pairs over ground", pairs),
