@@ -24,9 +24,9 @@ pub enum CameraError {
 /// Intrinsic parameters. Pixel centres are at integers: the top-left pixel's centre is (0, 0).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// PageImage width in px.
+    /// Image width in px.
     pub width_px: u32,
-    /// PageImage height in px.
+    /// Image height in px.
     pub height_px: u32,
     /// Focal lengths (fu, fv) in px.
     pub focal_px: Vector2<f64>,

@@ -46,9 +46,9 @@ pub enum RenderError {
          adapter's {limit_px} px: lower the resolution or render.supersampling"
     )]
     ImageTooLarge {
-        /// PageImage width in px.
+        /// Image width in px.
         width_px: u32,
-        /// PageImage height in px.
+        /// Image height in px.
         height_px: u32,
         /// Samples a pixel and axis.
         supersampling: u32,

@@ -1,9 +1,10 @@
 //! The image front end: the only room that names OpenCV.
 //!
 //! Corners (Harris', or those of another [`Detector`]) are found in every image, located to a fraction of a pixel,
-//! described by ORB (or another [`Descriptor`]) and matched from image to image, all of it by OpenCV. Each pair's matches are explained by the model that fits the scene, which gives the rotation between the
-//! images with its covariance, and verified matches chain into tracks. Plain results ([`TrackObservation`],
-//! [`RelativeRotation`]) and their files are free of OpenCV and are compiled without the `vision` feature too.
+//! described by ORB (or another [`Descriptor`]) and matched from image to image, all of it by OpenCV. Each pair's matches
+//! are explained by the model that fits the scene, which gives the rotation between the images with its covariance, and
+//! verified matches chain into tracks. What comes of it, and its files, are [`observations`](crate::observations), which
+//! are free of OpenCV.
 //!
 //! # From a folder of images to rotations
 //!

@@ -33,7 +33,7 @@ pub fn texture(p: Vector2<f64>) -> f64 {
     value
 }
 
-/// PageImage whose pixel `p` shows the texture at `place(p)`, with normal noise in grey levels.
+/// Image whose pixel `p` shows the texture at `place(p)`, with normal noise in grey levels.
 pub fn picture(
     width: u32,
     height: u32,

@@ -10,7 +10,7 @@ use nalgebra::{Matrix4, Vector2};
 pub struct SampleGrid {
     /// Samples a pixel and axis.
     pub stride: u32,
-    /// PageImage width and height in px.
+    /// Image width and height in px.
     pub size_px: (u32, u32),
 }
 

@@ -30,7 +30,7 @@ pub struct MeshFile {
     /// Metres in one unit of the file, instead of `unit` (default none: then `unit` is required). It is taken at its word, whatever size of body it gives.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub metres_per_unit: Option<f64>,
-    /// PageImage whose grey values are proportional to albedo (PNG, JPEG or TIFF), laid on by the texture coordinates of
+    /// Image whose grey values are proportional to albedo (PNG, JPEG or TIFF), laid on by the texture coordinates of
     /// an OBJ file (default none). A relative path starts at the folder of the scenario file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texture: Option<PathBuf>,

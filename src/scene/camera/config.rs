@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraConfig {
-    /// PageImage width in px, 16 to 16384 (default 1024).
+    /// Image width in px, 16 to 16384 (default 1024).
     pub width_px: u32,
-    /// PageImage height in px, 16 to 16384 (default 1024).
+    /// Image height in px, 16 to 16384 (default 1024).
     pub height_px: u32,
     /// Horizontal field of view in degrees of square pixels around a centred principal point, without distortion, 0.01
     /// to 170 (default 90 for a descent, 30 for a tumbling body and an attachment). It gives the focal length where

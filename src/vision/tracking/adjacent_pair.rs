@@ -1,4 +1,4 @@
-//! One pair of adjacent images: matched, solved, with_refined, solved again.
+//! One pair of adjacent images: matched, solved, refined by patches, solved again.
 
 use super::context::{TrackingContext, milliseconds};
 use super::image_features::{FrameFeatures, MatchStrategy, match_pair};
@@ -89,7 +89,7 @@ pub(super) fn solve_refined_pair(
     Ok(pair)
 }
 
-/// Matches a pair in one strategy after another until the motion is clear; the best attempt otherwise.
+/// Matches a pair by one strategy after another until the motion is clear; the best attempt otherwise.
 fn solve_pair(context: &TrackingContext, from: &FrameFeatures, to: &FrameFeatures) -> Result<Pair, VisionError> {
     let predicted = context.predicted(from.report.t_ns, to.report.t_ns);
     let fewest = context.config.rotation.min_matches;

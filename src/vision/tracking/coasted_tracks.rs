@@ -30,7 +30,7 @@ pub(super) struct CoastedTrack {
     pub(super) response: f64,
 }
 
-/// Two images with what is known of the strategy from one to the other.
+/// Two images with what is known of the way from one to the other.
 pub(super) struct CoastedSpan<'a> {
     /// The first image and the second one.
     pub(super) images: (&'a GrayImage, &'a GrayImage),

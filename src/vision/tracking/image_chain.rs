@@ -75,7 +75,7 @@ pub fn link(
     Ok(chain)
 }
 
-/// The strategy from an image to the next one.
+/// The way from an image to the next one.
 fn passage<'a>(
     context: &'a TrackingContext,
     pair: &Pair,

@@ -112,7 +112,7 @@ pub(super) enum MatchStrategy {
     Turned,
 }
 
-/// Matches two images in one strategy; without a prediction the guided strategy finds nothing.
+/// Matches two images by one strategy; without a prediction the guided strategy finds nothing.
 pub(super) fn match_pair(
     (from, to): (&FrameFeatures, &FrameFeatures),
     strategy: MatchStrategy,

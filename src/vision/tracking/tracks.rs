@@ -91,7 +91,7 @@ impl Tracks {
         self.shared_where(from, to, |_, _| true)
     }
 
-    /// Points seen in two images, and carried all the strategy between them by matched corners. Those that their patches alone
+    /// Points seen in two images, and carried all the way between them by matched corners. Those that their patches alone
     /// carried err alike with their neighbours: more of them would make a rotation look surer than it is.
     pub(super) fn shared_by_corners(&self, from: usize, to: usize) -> Vec<SharedPoint> {
         self.shared_where(from, to, |a, b| a == b)

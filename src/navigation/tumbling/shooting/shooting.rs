@@ -10,7 +10,7 @@ use crate::navigation::tumbling::pair::RotationPair;
 use crate::stats::{SQUARED_NORMAL_MEDIAN_3D, upper_median};
 use nalgebra::SMatrix;
 
-/// PageImage intervals that the first arc holds at least.
+/// Image intervals that the first arc holds at least.
 const LEAST_INTERVALS: usize = 20;
 
 /// Misfit in standard deviations beyond which the pairs and the motion have nothing to do with each other.

@@ -23,7 +23,7 @@ pub struct AlbedoImage {
 }
 
 impl AlbedoImage {
-    /// PageImage of the given size, row by row from the top.
+    /// Image of the given size, row by row from the top.
     ///
     /// # Panics
     /// If there are not `width_px · height_px` values, or none.

@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, SMatrix, SVector};
 /// Cells a side of the matches' rectangle.
 const CELLS: usize = 6;
 
-/// Which cell of the first image each matched lies in.
+/// Which cell of the first image each match lies in.
 pub fn cells(normalized: &[NormalizedMatch]) -> Vec<usize> {
     let (mut low, mut high) = (nalgebra::Vector2::repeat(f64::INFINITY), nalgebra::Vector2::repeat(f64::NEG_INFINITY));
     for s in normalized {
