@@ -247,8 +247,8 @@ fn relief_has_no_preferred_direction() {
 #[test]
 fn bad_parameters_are_named() {
     let refused = |config: TerrainConfig| config.validate().expect_err("refused").to_string();
-    assert!(refused(TerrainConfig { hurst: 1.5, ..TerrainConfig::default() }).contains("terrain.hurst is 1.5"));
-    assert!(refused(TerrainConfig { albedo: f64::NAN, ..TerrainConfig::default() }).contains("terrain.albedo"));
+    assert!(refused(TerrainConfig { hurst: 1.5, ..TerrainConfig::default() }).contains("hurst is 1.5"));
+    assert!(refused(TerrainConfig { albedo: f64::NAN, ..TerrainConfig::default() }).contains("albedo is NaN"));
     let upside_down =
         TerrainConfig { smallest_wavelength_m: 50.0, largest_wavelength_m: 5.0, ..TerrainConfig::default() };
     assert!(refused(upside_down).contains("smallest_wavelength_m"));

@@ -49,7 +49,7 @@ fn a_constant_that_is_no_usable_number_is_named() {
     for key in ["patch.shared_pixels", "pair.far_view", "pair.over_likeliest", "body.over_likeliest"] {
         assert!(refusal(&with_value(key, "0.0")).contains(key));
     }
-    assert!(refusal(&with_value("pair.correlated_error_share", "1.5")).contains("between 0 and 1"));
+    assert!(refusal(&with_value("pair.correlated_error_share", "1.5")).contains("from 0 to 1"));
     assert!(NoiseModelFile::parse(&with_value("pair.correlated_error_share", "0.0")).is_ok(), "white noise is allowed");
 }
 

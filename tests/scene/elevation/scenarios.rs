@@ -53,7 +53,7 @@ fn faults_of_measured_ground_name_the_key_or_the_file() {
         (at(-95.0), "descent.elevation.site.degrees.latitude_deg", "-95"),
         (COPRATES.replace("coprates", "none"), "none.lbl", "read the raster"),
         (format!("{COPRATES}file.scale = 0\n"), "descent.elevation.file.scale", "not be 0"),
-        (format!("{COPRATES}colour = 1\n"), "colour", "unknown"),
+        (format!("{COPRATES}colour = 1\n"), "descent.elevation.colour", "there is no key"),
         ("[descent.elevation]\ndetail = true\n".into(), "file", "missing"),
         (COPRATES.replace("elevation", "orthoimage") + "file.offset = -1e5\n", "coprates.lbl", "mean albedo"),
     ];

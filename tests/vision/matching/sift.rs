@@ -142,7 +142,7 @@ fn the_patch_has_least_and_greatest_sides() {
     }
     for patch_px in [0.0, 7.9, 128.1, f64::NAN, -30.0, f64::INFINITY] {
         let error = describe_features(&plain, &here, Orientation::Upright, &by_sift(patch_px)).expect_err("refused");
-        assert!(error.to_string().contains("between 8 and 128"), "{error}");
+        assert!(error.to_string().contains("from 8 to 128"), "{error}");
         let mut config = FrontEndConfig::default();
         config.matcher.sift.patch_px = patch_px;
         let error = config.validate().expect_err("refused");
