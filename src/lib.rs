@@ -36,7 +36,8 @@
 //! | feature | brings | through |
 //! |---|---|---|
 //! | none | geometry, data sets, observations, navigation, evaluation | |
-//! | `scene` | scenarios, terrain, bodies, light; campaigns | anise, tobj, ply-rs-bw, stl_io, schemars |
+//! | `settings` | settings in files and as single changes | schemars, strsim |
+//! | `scene` | scenarios, terrain, bodies, light; campaigns | anise, tobj, ply-rs-bw, stl_io |
 //! | `render` | the renderer, with `scene` | wgpu: a Vulkan, Metal or DirectX 12 driver |
 //! | `vision` | the image front end | OpenCV 4 |
 //! | `report` | plots and the page | plotters, maud |

@@ -9,6 +9,8 @@ mod calibration;
 mod campaign;
 #[cfg(all(feature = "cli", feature = "render", feature = "report", feature = "vision"))]
 mod cli;
+#[cfg(all(feature = "cli", not(feature = "vision")))]
+mod cli_left_out;
 mod dataset;
 mod evaluation;
 mod fuzz;

@@ -1,6 +1,7 @@
 //! Tests of the room `navigation`.
 
 mod filter;
+#[cfg(feature = "scene")]
 mod landing;
 mod landmark;
 mod observability;

@@ -1,6 +1,6 @@
 //! `opnav bench`: how long the stages of a story take.
 
-use super::arguments::frame_range;
+use super::frame_range::frame_range;
 use super::progress::Terminal;
 use super::settings_arguments::SettingsArguments;
 use opnav::pipeline::{BenchRenderRequest, PipelineError, RenderTimes, bench_render};

@@ -1,6 +1,7 @@
 //! `opnav land`: navigate a descent.
 
-use super::arguments::{FrontEndArguments, put, word};
+use super::arguments::{put, word};
+use super::input_arguments::FrontEndArguments;
 use super::landing_options::LandingOptions;
 use super::progress::Terminal;
 use super::settings_arguments::SettingsArguments;

@@ -1,7 +1,6 @@
 //! `opnav reference`: every key of a scenario and every setting of a command.
 
 use clap::ValueEnum;
-use opnav::pipeline::{scenario_reference, settings_reference};
 
 /// Print every key of a scenario and every setting of the other commands with type, unit, default, range and meaning, in
 /// Markdown.
@@ -15,20 +14,26 @@ pub struct Arguments {
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
 enum Part {
     /// The keys of a scenario, which `render`, `map` and `bench` read.
+    #[cfg(feature = "scene")]
     Scenario,
     /// The settings of `track`, `land`, `tumble`, `montecarlo` and `demo`.
+    #[cfg(any(feature = "vision", all(feature = "scene", feature = "report")))]
     Settings,
+}
+
+impl Part {
+    fn text(self) -> String {
+        match self {
+            #[cfg(feature = "scene")]
+            Part::Scenario => opnav::pipeline::scenario_reference(),
+            #[cfg(any(feature = "vision", all(feature = "scene", feature = "report")))]
+            Part::Settings => opnav::pipeline::settings_reference(),
+        }
+    }
 }
 
 /// Prints the reference on standard output.
 pub fn run(arguments: &Arguments) {
-    if arguments.part != Some(Part::Settings) {
-        print!("{}", scenario_reference());
-    }
-    if arguments.part.is_none() {
-        println!();
-    }
-    if arguments.part != Some(Part::Scenario) {
-        print!("{}", settings_reference());
-    }
+    let parts = arguments.part.as_ref().map_or(Part::value_variants(), std::slice::from_ref);
+    print!("{}", parts.iter().map(|part| part.text()).collect::<Vec<_>>().join("\n"));
 }

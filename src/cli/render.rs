@@ -1,6 +1,6 @@
 //! `opnav render`: a scenario to a data set.
 
-use super::arguments::frame_range;
+use super::frame_range::frame_range;
 use super::progress::Terminal;
 use super::settings_arguments::SettingsArguments;
 use opnav::pipeline::{PipelineError, SynthesizeRequest, Synthesized, synthesize};

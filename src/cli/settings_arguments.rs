@@ -1,6 +1,8 @@
 //! `--config` and `--set`: settings of a command from a file and one by one.
 
-use opnav::settings::{Layers, Settings, SettingsError};
+use opnav::settings::Layers;
+#[cfg(any(feature = "vision", all(feature = "scene", feature = "report")))]
+use opnav::settings::{Settings, SettingsError};
 use std::path::PathBuf;
 
 /// Settings from a file and one by one. Defaults lie below `--config`, that below `--set`, and that below options of their
@@ -34,6 +36,7 @@ impl SettingsArguments {
     ///
     /// # Errors
     /// Says where a key is unknown, a value of a wrong type or out of range.
+    #[cfg(any(feature = "vision", all(feature = "scene", feature = "report")))]
     pub fn resolve<S: Settings>(&self) -> Result<S, SettingsError> {
         self.layers([]).resolve()
     }

@@ -1,6 +1,6 @@
 //! `opnav track`: any folder of images to tracks and relative rotations.
 
-use super::arguments::{FrontEndArguments, InputArguments};
+use super::input_arguments::{FrontEndArguments, InputArguments};
 use super::progress::Terminal;
 use super::settings_arguments::SettingsArguments;
 use opnav::pipeline::{PipelineError, Progress, TrackRequest, TrackSettings, track};

@@ -1,6 +1,7 @@
 //! `opnav tumble`: the motion of a tumbling body.
 
-use super::arguments::{FrontEndArguments, InputArguments, put, word};
+use super::arguments::{put, word};
+use super::input_arguments::{FrontEndArguments, InputArguments};
 use super::progress::Terminal;
 use super::settings_arguments::SettingsArguments;
 use opnav::pipeline::{Estimator, PipelineError, TumbleRequest, TumbleSettings, tumble};

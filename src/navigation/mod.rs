@@ -1,4 +1,7 @@
-//! Estimators, one folder a mission, and the three rooms that they share.
+//! Estimators: one wing a mission ([`landing`], [`tumbling`]), and three that know no spacecraft and serve both:
+//! [`filter`] (corrections and gates), [`landmark`] (which point of the ground tells most) and [`observability`] (what
+//! can be told at all). They see observations and inertial measurements, never images, scenes or the truth. Each
+//! mission has one short `step` or `estimate` to begin reading at.
 
 pub mod filter;
 pub mod landing;

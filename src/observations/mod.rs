@@ -1,5 +1,7 @@
-//! What the front end writes and navigation reads: tracks, rotations of image pairs, statuses of images, and their
-//! files. Free of OpenCV, so that whoever has observations of another make navigates by them alike.
+//! What the front end writes and navigation reads: tracks (`track`), rotations of image pairs (`rotation`), statuses of
+//! images (`frame_status`), chains of attitudes over them, the camera that a filter predicts for a map to be searched
+//! (`predicted_camera`), and their files. Free of OpenCV, so that whoever has observations of another make navigates by
+//! them alike: write `tracks.csv`, or fill the structs.
 
 mod attitude_chains;
 mod frame_status;

@@ -1,5 +1,7 @@
-//! Seeded random streams, estimates with covariance, χ² bounds for consistency tests, robust statistics and damped least
-//! squares.
+//! Seeded random streams (`stream`: the same name and seed give the same numbers on every machine), estimates with
+//! covariance (`estimate`), χ² bounds for consistency tests (`chi_squared`), robust statistics (`robust`), exact
+//! symmetry (`symmetric`), and one damped least-squares loop for all fits (`least_squares`, `residuals`). It knows no
+//! mission; every room but `geometry` and `settings` may use it.
 
 mod chi_squared;
 mod estimate;

@@ -18,6 +18,5 @@ mod monte_carlo;
 mod outages;
 mod reference_run;
 mod refusals;
-#[cfg(feature = "scene")]
 mod speed;
 mod wrong_point;

@@ -1,4 +1,7 @@
-//! Simulated landings: ground, sensors, one flight, its posterior Cramér–Rao bound, and what a campaign of them shows.
+//! Simulated landings: what a descent would measure, flown through the real filter. Read `options` (what is flown),
+//! `simulated_sensors` (the true path, the IMU and the bearings of it), `relief` (the ground's heights), then `flight`,
+//! one flight from truth to record; `bound` is the posterior Cramér–Rao bound of the same measurements, and `outcome`
+//! flies many and sums up. Only stories, reports and tests use it.
 
 mod bound;
 mod flight;

@@ -1,4 +1,5 @@
-//! Files of other tools: trajectories of TUM, models of COLMAP.
+//! Files of other tools, read and written: trajectories of the TUM benchmark (`tum`, also the form of our own attitude
+//! chains) and text models of COLMAP (`colmap`). A new tool gets a file or folder here; nothing in it knows a mission.
 
 mod colmap;
 mod tum;

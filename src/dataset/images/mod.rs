@@ -1,4 +1,7 @@
-//! Images and their lists: image sequences, image files, intensity scaling, rasters, the camera that took them.
+//! Images and what is known of them: from a folder to a list of frames with times (`sequence`, `frame_list`), from a
+//! file of any depth to numbers (`image_file`) and to intensities on one scale for all (`grey_levels`), and the camera
+//! that took them (`sensor`). `raster` writes and reads images of numbers: depth, normals, masks. Read `sequence`
+//! first. The front end and the writers of data sets use it; estimators need none of it.
 
 mod frame;
 mod frame_list;

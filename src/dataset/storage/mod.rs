@@ -1,4 +1,6 @@
-//! How files are written and found again: atomic writes, tables, checksums, the journal of unfinished work, the manifest.
+//! How files come to be whole: written to a temporary name and renamed (`atomic`), as tables with their header and unit
+//! (`table`), noted with their checksums in a journal so that an interrupted job goes on where it stopped (`journal`,
+//! `checksums`), and described by the data set's `manifest`. Every writer of this room goes through here.
 
 mod atomic;
 mod checksums;

@@ -1,4 +1,7 @@
-//! The ground truth of a data set, `truth/`: everything that an estimator may not see.
+//! The ground truth of a data set, `truth/`: everything that an estimator may not see. States of the lander or of
+//! several spacecraft (`lander`), of the small body (`asteroid`), points of the ground and where they are seen
+//! (`landmark`), optical flow (`flow`), and where each file lies (`layout`). The scene writes it, evaluation reads it;
+//! the architecture test keeps vision and navigation out.
 
 mod asteroid;
 mod flow;

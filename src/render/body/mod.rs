@@ -1,4 +1,5 @@
-//! Small bodies on the adapter: vertices, albedo, and what hides what.
+//! Small bodies on the adapter: vertices and materials (`body_geometry`), images and maps of albedo (`albedo_map`), and
+//! whether the camera would stand inside the body (`enclosure`). `surface` uses it beside `terrain`.
 
 mod albedo_map;
 mod body_geometry;

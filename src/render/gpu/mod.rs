@@ -1,4 +1,6 @@
-//! The adapter: device, targets, uniforms, passes over geometry, read-back, times.
+//! The adapter and what every pass shares: `device` chooses and opens it, `targets` are what is drawn into,
+//! `geometry_pass` draws any geometry with any role, `uniforms` lays numbers out as the shaders read them, `read_back`
+//! fetches images, `timing` measures. Nothing here knows ground, body or lens; all other wings of the room stand on it.
 
 #[cfg(test)]
 mod compute_twin;

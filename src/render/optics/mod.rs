@@ -1,4 +1,6 @@
-//! From scene to pixel: projections, lenses, sample grids, motion within an exposure.
+//! From scene to pixel: `projection` of the pinhole, `sample_grid`, several samples a pixel with one at its centre,
+//! `lens`, which looks samples up where the distortion puts them, and `motion_blur`, the moments of an exposure and
+//! their rows. `renderer` and the exposure use it.
 
 mod lens;
 mod motion_blur;

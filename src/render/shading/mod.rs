@@ -1,4 +1,6 @@
-//! Light on what is seen: shadows, photometry, detail finer than the mesh.
+//! Light on what is seen. `job` says what a image needs, `shadow` draws the Sun's view of the surface, `photometry` and
+//! `noise` lay laws and detail finer than the mesh out for their shaders (each with a twin test against the CPU's
+//! formulas), `shading_pipelines` compiles, `shading` records the pass. It shades bodies and terrain alike.
 
 mod job;
 mod noise;

@@ -1,4 +1,7 @@
-//! Terrain on the adapter: tiles with levels of detail, their pool, rocks as meshes of their own.
+//! Terrain on the adapter. `seen_ground` finds what a view can see, `level_of_detail` how fine it must be, `tile` and
+//! `tile_pool` keep patches of it, `vertex_heights` and `octaves` split relief between vertices and shading,
+//! `terrain_geometry` draws them all; rocks are meshes of their own (`rocks`, `rock_mesh`, `rock_pages`). Read
+//! `terrain_geometry` first.
 
 mod level_of_detail;
 mod octaves;

@@ -1,4 +1,6 @@
-//! The self-contained page: missions, figures, images, campaigns.
+//! The self-contained page. `page` is its plain data, `render` the HTML of it; `result` and `mission` make the section
+//! of a result folder, `campaign` those of simulated flights (feature `scene`), `figures` the tables, `image` the PNGs.
+//! Nothing else in the crate writes HTML.
 
 #[cfg(feature = "scene")]
 mod campaign;

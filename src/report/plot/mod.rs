@@ -1,4 +1,6 @@
-//! Plots: axes, charts, kinds. What only campaigns draw needs the feature `scene`.
+//! Plots as SVG text: `axis` places ticks, `plot` is the panel with its layers, `kinds` the plots of a mission (errors
+//! in their envelopes, consistency, sizes), `charts` boxes and maps, which only campaigns draw (feature `scene`). The
+//! page uses it.
 
 mod axis;
 #[cfg(feature = "scene")]

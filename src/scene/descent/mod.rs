@@ -1,5 +1,6 @@
-//! A powered descent to a landing site: guidance, attitude, inertial measurements, when images are taken, and what the
-//! lander believes at the start.
+//! A powered descent to a landing site. `config` is its table; `guidance` the path and `motion` the attitude along it;
+//! `schedule` when images are taken; `imu_simulation` what is measured, `initial_error` what the lander believes at the
+//! start; `build` makes the scene of them all, and refuses paths below the ground.
 
 mod build;
 mod camera_mount;

@@ -1,4 +1,6 @@
-//! What perfect sensors would measure: depth, optical flow, inertial measurements.
+//! What perfect sensors would measure of a scene: inertial samples (`ideal_imu`), depth and the landmarks that it lets
+//! see (`depth_image`), optical flow (`optical_flow`). Truth is written from these; simulated sensors add their errors
+//! to them.
 
 mod depth_image;
 mod ideal_imu;

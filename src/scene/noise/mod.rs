@@ -1,4 +1,5 @@
-//! Gradient noise and its octaves.
+//! Gradient noise with its derivatives (`gradient_noise`, the CPU's twin of `shaders/noise.wgsl`) and octaves of it
+//! with their strength and orientation (`octave`). Terrain, bodies and albedo are sums of these.
 
 mod gradient_noise;
 mod octave;

@@ -1,4 +1,6 @@
-//! The scenario: one TOML file, its tables, and the mission that it builds.
+//! The scenario: `file` is the TOML file as it stands, with overrides and unknown keys refused; `scenario` the same
+//! with every default filled in; `mission` what happens and the scene that it builds; `render_config` and
+//! `truth_config` two of its tables. Begin with `scenario`.
 
 mod file;
 mod mission;

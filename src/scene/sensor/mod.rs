@@ -1,4 +1,5 @@
-//! Settings of a camera's detector: exposure, shutter, vignetting, point spread, noise, read-out.
+//! Settings of a camera's detector, in the order of the physics: `exposure`, `shutter`, `vignetting`, `fixed_pattern`,
+//! and all together in `config`. The detector itself stands in `render/sensor`.
 
 mod config;
 mod exposure;

@@ -1,4 +1,7 @@
-//! The ground: relief and features over a plane or a measured base, its rays and patches.
+//! The ground: relief and features over a plane or a measured base. `config` is its table, `terrain` the ground with
+//! heights, normals and albedo at any place and fineness; `relief` sums octaves, `features` lie on it, `measured_base`
+//! and `on_base` put it on an elevation model, `ray` and `patch` are what views ask of it. The renderer draws what this
+//! wing says.
 
 mod config;
 mod features;

@@ -1,5 +1,5 @@
-//! A tumbling small body in front of a camera that does not turn: rigid-body motion, where the Sun and the camera
-//! stand, and the images to take.
+//! A tumbling small body in front of a camera that does not turn. `config` is its table; `rigid_body` and `inertia` its
+//! motion; `placement` and `phase` where camera and Sun stand; `build` makes the scene with the images to take.
 
 mod build;
 mod config;

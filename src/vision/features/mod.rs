@@ -1,4 +1,8 @@
-//! Corners: response, maxima, sub-pixel peak with its covariance, spread over the image, the image's noise.
+//! Corners, from response to covariance. `detect` is the recipe; a `detector` is a response and what is known of its
+//! peaks (`harris` through `harris_response` and `line_filter`, its hot loops; `shi_tomasi`), and `detector_kind` the
+//! list of all. `local_maxima` and `subpixel_peak` find and place peaks, `even_spread` chooses among them,
+//! `image_noise` measures the noise that the covariance of each `feature` comes from. Nothing here knows a second
+//! image.
 
 mod config;
 mod corner_response;

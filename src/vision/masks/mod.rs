@@ -1,4 +1,5 @@
-//! Where not to look: parts of the spacecraft, the sky beside a body's silhouette.
+//! Where not to look: parts of the spacecraft (`mask`), and the sky beside a body's silhouette (`silhouette`).
+//! Detector, patches and trackers ask here.
 
 mod mask;
 mod silhouette;

@@ -1,4 +1,7 @@
-//! Descriptors and their matching.
+//! Descriptors and their matching. A `descriptor` describes features by rows of bytes (`orb`, `sift`; `descriptor_kind`
+//! is the list of all, `describe` the way in); `matcher` finds mutual best matches, anywhere or near a prediction
+//! (`cell_index`), by OpenCV's code (`opencv_matcher`) or our own (`fused_matcher`). What matches mean for the motion
+//! is the business of `pair`.
 
 mod cell_index;
 mod config;

@@ -1,4 +1,7 @@
-//! The rotation of an image pair: models, robust fit, two-fold ambiguities, covariance.
+//! The rotation of a image pair. `relative_rotation` is the recipe: pixels become normalised coordinates, `usac`
+//! proposes an essential matrix and a homography, `hypotheses` ranks what each may mean, `robust_fit` refines it over
+//! `models` and `plane`, `parallax_gate` and `cheirality` refuse the impossible, and `covariance` says how well it is
+//! known. `solution` is what comes out. It sees matched pixels, never images.
 
 mod cheirality;
 mod config;

@@ -1,4 +1,6 @@
-//! Patches: aligned to a fraction of a pixel, followed from image to image, warped as the surface turns.
+//! Patches: placed by intensities to a hundredth of a pixel (`alignment`; `affine_alignment` where they also stretch),
+//! followed through images (`patch_tracker`), and warped as the matches about them say (`local_affine`); `sampling` is
+//! the hot loop under all of them. Tracks, the designated point and maps use it.
 
 mod affine_alignment;
 mod alignment;

@@ -1,4 +1,7 @@
-//! From pairs to tracks: adjacent pairs, refined matches, chains, keyframe pairs, tracks that coast.
+//! From pairs to tracks. `image_features` describes a image, `adjacent_pair` solves it with the one before,
+//! `refined_match` places matches by intensities, `image_chain` runs along the sequence holding only what is needed,
+//! `tracks` joins the links and `coasted_tracks` finds lost ones again; `keyframe_pairs` and `ambiguous_pairs` come
+//! after, `output_order` last. `sequence.rs`, above, is the recipe.
 
 mod adjacent_pair;
 mod ambiguous_pairs;

@@ -1,4 +1,7 @@
-//! Bearings of known and unknown landmarks: what one measures, its innovation, the correction, and contradictions.
+//! A bearing, from pixel to correction. `measurement` makes it of a pixel and the camera's mounting, `innovation`
+//! compares it with the prediction in the coordinates of the chosen filter, `correct` gates it and takes it in, all
+//! bearings of a image at once. `known_sighting` is the bearing of a point whose place a map tells; `contradiction`
+//! watches for a designated point that is not where the filter knows it to be.
 
 mod contradiction;
 mod correct;

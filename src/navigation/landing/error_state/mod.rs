@@ -1,4 +1,7 @@
-//! The state, and the coordinates that its error is written in: hybrid (consistent) or standard (the paper's own).
+//! The state of a descent, and the coordinates that its error is written in. Read `state` and `state_core`, then
+//! `coordinates`, the interface of the two forms: `hybrid`, whose unobservable directions stay so, and `standard`, the
+//! paper's own. `transition` and `jacobian` are what they give to propagation and correction; `ground_point` is where a
+//! ray meets the ground. The other wings name the form only as `FilterKind`.
 
 mod coordinates;
 mod filter_kind;

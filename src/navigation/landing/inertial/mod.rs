@@ -1,4 +1,6 @@
-//! Inertial measurements: increments, biases, gaps, and the planet whose frame turns.
+//! Inertial measurements between two images: `imu` sums samples to an increment with its covariance and bridges gaps,
+//! `biases` are what it subtracts, and `planet` says how gravity and the turning frame act on what is left. No other
+//! wing integrates samples.
 
 mod biases;
 mod imu;

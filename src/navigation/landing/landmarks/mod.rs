@@ -1,4 +1,7 @@
-//! Which unknown landmark to follow, when it is visible, and how its place starts.
+//! Unknown landmarks: when one is visible and for how long (`visibility`), which to take next for what it will tell
+//! (`select`, with the criteria of `navigation::landmark`), where its place starts, on a plane (`initialize`) or where
+//! two bearings meet (`delayed_start`), and the errors of the designated point (`designated_point`). `step` calls them
+//! once an image.
 
 mod delayed_start;
 mod designated_point;

@@ -1,4 +1,6 @@
-//! What an arc of observations can tell at best: Lie derivatives, Fisher information, directions that stay undetermined.
+//! What an arc of observations can tell at best. `lie_derivatives` gives the rank of observability order by order,
+//! `arc_bound` the Cramér–Rao bound of a planned arc, `determinacy` the directions of the inertia that a motion leaves
+//! undetermined, which the shooting holds fixed instead of inventing.
 
 mod arc_bound;
 mod determinacy;

@@ -1,4 +1,6 @@
-//! Filters that run from image to image: the paper's, and the one for real time.
+//! Estimators that go from image to image: `paper_filter`, the baseline as published with its faults, and `realtime`, a
+//! cloned Kalman filter that starts from a fit of the first arc. Both use `motion` and are chosen in `estimate`; a
+//! further one is a file here.
 
 mod paper_filter;
 mod realtime;

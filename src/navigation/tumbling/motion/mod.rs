@@ -1,4 +1,6 @@
-//! Euler's motion of a free body: state, inertia ratios, dynamics, the trajectory with its sensitivities.
+//! Euler's motion of a free body. `inertia` writes the ratios without their scale, which images cannot tell; `state` is
+//! attitude and rate; `dynamics` their derivative; `trajectory` integrates them with sensitivities to start and ratios.
+//! It knows no measurement; every other wing of the mission stands on it.
 
 mod dynamics;
 mod inertia;

@@ -1,4 +1,6 @@
-//! Shape files: OBJ, PLY, STL, and the shape that each is read into.
+//! Shape files: OBJ, PLY and STL, each read into the same plain `shape` with its textures; `read` chooses by extension,
+//! `welder` joins the corners of formats that repeat them. Errors name file and line. `mesh_file` makes a mesh of the
+//! shape.
 
 mod obj;
 mod ply;

@@ -1,4 +1,6 @@
-//! Triangle meshes: topology, rays, mass properties, landmarks, albedo.
+//! Triangle meshes: the `mesh` itself, whether it is closed (`topology`), rays (`ray`), volume and inertia
+//! (`mass_properties`), points on it (`landmarks`), and albedo by vertex, texture or map (`albedo*`). Procedural bodies
+//! and shape files end here; the renderer draws it.
 
 mod albedo;
 mod albedo_image;

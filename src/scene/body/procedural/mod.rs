@@ -1,4 +1,5 @@
-//! Bodies made of nothing: relief, craters and boulders on an icosphere.
+//! Bodies grown from a seed: an `icosphere` moved by `relief` and `crater`s, with `boulder`s sunk into it; `build`
+//! joins them in this order. The same seed gives the same body.
 
 mod boulder;
 mod build;

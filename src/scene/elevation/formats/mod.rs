@@ -1,4 +1,6 @@
-//! Elevation files: GeoTIFF, PDS, PNG, and the raster that each is read into.
+//! Files of elevation and orthoimages: GeoTIFF (`geotiff`, `geokeys`), PDS (`pds`, its label and map projection), PNG
+//! and raw samples, each read into the same `file_raster` with its georeference. Errors name the file and the key or
+//! tag.
 
 mod file_raster;
 mod geokeys;

@@ -1,4 +1,6 @@
-//! What lies on the ground: craters, rocks, hummocks, ripples, units, and how they are scattered.
+//! What lies on the ground: `crater`, `rock`, `hummock`, `ripple` and geological `unit`, each a class with its law of
+//! sizes and one shape; `scatter` strews a class reproducibly over cells, `bins` and `classes` find what is near a
+//! place, `softened` and `site_taper` fade it. A new kind of feature is a file here and a line in `classes`.
 
 mod bins;
 mod classes;

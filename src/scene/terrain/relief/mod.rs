@@ -1,4 +1,5 @@
-//! Heights and slopes of the ground as sums of octaves and features.
+//! Heights and slopes of the ground as sums of octaves (`octave_sums`), and what a place of the ground is asked for and
+//! gives (`ground_sample`). It knows neither features nor files.
 
 mod ground_sample;
 mod octave_sums;

@@ -1,4 +1,6 @@
-//! Errors of matches that are not independent: clusters, and localisation errors that vary smoothly over the image.
+//! Errors of matches that are not independent: neighbours that err together (`cluster_robust`), and localisation errors
+//! that vary smoothly over the image (`correlated_error` over the basis of `correlated_modes`, with `elimination` of
+//! the unknowns), which make up most of a rotation's covariance on rendered ground.
 
 mod cluster_robust;
 mod correlated_error;

@@ -1,4 +1,6 @@
-//! Rotations about a fixed centre: a body that turns before a resting camera.
+//! Rotations about a fixed centre: a body that turns before a resting camera. `problem` states it for all pairs
+//! together, `start` finds starts and their reversed rivals, `solve` refines rotations and the common centre with its
+//! covariance.
 
 mod problem;
 mod solve;

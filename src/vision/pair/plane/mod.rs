@@ -1,4 +1,6 @@
-//! A plane with relief: the ground as a camera high above sees it.
+//! A plane with relief: the ground as a camera high above sees it. `model` is its likelihood with the relief
+//! marginalised, `start` takes plane and motion from a homography, `fit` climbs. It becomes the epipolar constraint
+//! where relief shows and the homography where it does not.
 
 mod fit;
 mod model;
