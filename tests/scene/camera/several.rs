@@ -67,7 +67,12 @@ fn faults_of_a_camera_are_named_with_its_place() {
     assert!(both.contains("[camera]") && both.contains("[[cameras]]"), "{both}");
     let set = |line: &str| Scenario::parse("[[cameras]]\n[[cameras]]\n[descent]", "test.toml".as_ref(), &[line.into()]);
     assert_eq!(set("cameras.1.fov_deg=50").expect("a scenario").imagers[1].camera.fov_deg, 50.0);
-    assert!(set("cameras.2.fov_deg=50").expect_err("refused").to_string().contains("--set cameras.2.fov_deg=50: there is no entry 2"));
+    assert!(
+        set("cameras.2.fov_deg=50")
+            .expect_err("refused")
+            .to_string()
+            .contains("--set cameras.2.fov_deg=50: there is no entry 2")
+    );
     let unknown = Scenario::parse("[truth]\nsmell = true\n[descent]", "test.toml".as_ref(), &[]);
     assert!(unknown.expect_err("refused").to_string().contains("smell"));
 }
