@@ -59,6 +59,20 @@ fn blocks_are_the_dense_jacobian_and_a_growing_covariance_the_fixed_one() {
     assert!((wrong.covariance - fixed.covariance).norm() > 1e-3);
 }
 
+/// Beyond the size that costs no allocation nothing else changes.
+#[test]
+fn a_large_state_is_corrected_like_a_small_one() {
+    let (prior, dense) = problem(4);
+    let small = correction(prior, std::slice::from_ref(&dense)).expect("regular");
+    let mut large = DMatrix::identity(150, 150);
+    large.view_mut((0, 0), (6, 6)).copy_from(&prior);
+    let large = correction(large, &[dense]).expect("regular");
+    let corner = large.covariance.fixed_view::<6, 6>(0, 0) - small.covariance;
+    assert!(corner.norm() < 1e-12 && large.shift[..6] == small.shift[..] && large.shift.len() == 150);
+    assert!(large.covariance.view((6, 6), (144, 144)) == DMatrix::identity(144, 144));
+    assert!(large.covariance.view((6, 0), (144, 6)).amax() == 0.0);
+}
+
 #[test]
 fn one_after_the_other_is_all_at_once() {
     let (prior, both) = problem(5);

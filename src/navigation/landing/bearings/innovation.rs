@@ -7,6 +7,7 @@ use crate::navigation::landing::error_state::{
     ATTITUDE, DescentEstimate, DescentState, FilterKind, POSITION, RelativeJacobian,
 };
 use crate::navigation::landmark::projector_over_range;
+use crate::stats::symmetric;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 use smallvec::smallvec;
 
@@ -89,10 +90,7 @@ fn second_order(estimate: &DescentEstimate, bearing: &BearingObservation, sight:
     let across = tangent_basis(&bearing.direction_in_lander);
     let along = bearing.direction_in_lander.into_inner();
     let range_squared_m2 = sight.relative_in_lander_m.norm_squared().max(1e-6);
-    let hessian = |axis: usize| {
-        let outer = across.column(axis) * along.transpose();
-        (outer + outer.transpose()) / -range_squared_m2
-    };
+    let hessian = |axis: usize| symmetric(&(across.column(axis) * along.transpose())) * (-2.0 / range_squared_m2);
     QuadraticMoments::new(&[hessian(0), hessian(1)], &relative_covariance(estimate, sight)).covariance
 }
 
