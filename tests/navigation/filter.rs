@@ -4,6 +4,7 @@ mod consistency;
 mod correction;
 mod covariance_intersection;
 mod ekf;
+#[cfg(feature = "scene")]
 mod manifold;
 mod unscented;
 

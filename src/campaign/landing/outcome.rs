@@ -41,7 +41,7 @@ pub struct FinalErrors {
 /// Flies a campaign, `progress` hearing of each flight. The result does not depend on the number of threads.
 ///
 /// # Errors
-/// [`EvaluationError::Campaign`] for an option out of range.
+/// [`EvaluationError::OutOfRange`] for an option out of range.
 pub fn run_campaign(options: &CampaignOptions, progress: &(dyn Fn() + Sync)) -> Result<Campaign, EvaluationError> {
     options.validate()?;
     let flown = |run: u64| {

@@ -21,7 +21,7 @@ pub struct CenteredPair<'a> {
 pub struct CenterSolution {
     /// Direction of the centre in the camera.
     pub center_in_camera: Unit<Vector3<f64>>,
-    /// Its covariance (rad²) along the axes of [`so3::tangent_basis`]. The part of the rotations' errors that it causes
+    /// Its covariance (rad²) along the axes of [`so3::tangent_basis`](crate::geometry::so3::tangent_basis). The part of the rotations' errors that it causes
     /// is common to all pairs.
     pub center_covariance_rad2: Matrix2<f64>,
     /// One solution a pair.
