@@ -3,6 +3,7 @@
 use super::end_to_end::{dataset, estimate_tumbling, navigate_descent, value};
 use crate::accuracy_bar::{Bar, check_table};
 use opnav::pipeline::evaluate_result;
+use std::cell::RefCell;
 use tempfile::TempDir;
 
 /// The descent of one seed. Sources of the bounds: those that the rendered reference descents keep too, horizontally 0.5 m,
@@ -76,16 +77,12 @@ fn descents_nees_bars(nees: &[f64]) -> Vec<Bar> {
 #[test]
 #[ignore = "minutes: renders and navigates ten sequences"]
 fn accuracy_from_pixels() {
-    let mut nees = Vec::new();
-    let mut parts: Vec<Vec<Bar>> = Vec::new();
-    for seed in 1..=5 {
+    let nees = RefCell::new(Vec::new());
+    let of_seeds = (1..=5).flat_map(|seed| {
         let (bars, nees_of_seed) = descent_bars(seed);
-        nees.push(nees_of_seed);
-        parts.extend([bars, tumbling_bars(seed)]);
-    }
-    parts.push(descents_nees_bars(&nees));
-    check_table(
-        "From pixels: the last picture of the small descent, the arc of the small tumbling body",
-        parts.into_iter(),
-    );
+        nees.borrow_mut().push(nees_of_seed);
+        [bars, tumbling_bars(seed)]
+    });
+    let of_all = std::iter::once_with(|| descents_nees_bars(&nees.borrow()));
+    check_table("From pixels: the small descent's last picture, the small tumbling body's arc", of_seeds.chain(of_all));
 }
