@@ -1,7 +1,7 @@
 //! The recipe of the noise model: `make calibrate` renders scenes of its own, compares what the front end finds on them with
 //! the truth, fits every constant, prints old and new numbers and writes `src/vision/noise_model/noise_model.toml`.
 //!
-//! The scenes (`datasets/calibration`) share no seed, body, path or Sun with those that tables of accuracy judge; further
+//! The scenes (`datasets/calibration`) share no seed, body or Sun with those that tables of accuracy judge; further
 //! ones (`datasets/calibration/held_out`) judge the fit and are no part of it. Rendered scenes are kept, so that an
 //! interrupted calibration goes on (`OPNAV_CALIBRATION=DIR`, otherwise under `target/`). The same seed gives the same bytes,
 //! as long as the same graphics adapter draws.
@@ -31,7 +31,7 @@ pub const SEED: u64 = 1;
 #[ignore = "fits the noise model and writes its file: run by `make calibrate`"]
 fn calibrate() {
     let old = NoiseModelFile::default();
-    let found = stages::run(&old.constants());
+    let found = stages::run();
     let date = std::env::var("OPNAV_CALIBRATION_DATE").unwrap_or_else(|_| old.date.clone());
     let new = sheet::updated(&old, &found, (&date, scenes::FIT.scenarios()));
     println!("\n{}", sheet::table(&old, &new));
